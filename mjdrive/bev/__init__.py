@@ -1,0 +1,1 @@
+"""The bird's-eye view that policies see."""

@@ -1,0 +1,1 @@
+"""Drives as data: how they are made and kept."""

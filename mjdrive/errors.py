@@ -1,0 +1,43 @@
+"""What can go wrong for the user: each error says what was given, what was expected and what to do."""
+
+import difflib
+from collections.abc import Iterable
+
+
+class MjdriveError(Exception):
+    """A mistake that the user can mend; the command line prints it in one line and exits with status 2."""
+
+
+class UnknownNameError(MjdriveError):
+    """A name that is not one of those known here."""
+
+    def __init__(self, kind: str, name: str, known: Iterable[str], *, hint: str = "") -> None:
+        names = sorted(known)
+        near = difflib.get_close_matches(name, names, n=1)
+        parts = [
+            f"Unknown {kind} '{name}'.",
+            f"Known: {', '.join(names)}." if names else f"There is no {kind} here yet.",
+            f"Did you mean '{near[0]}'?" if near else "",
+            hint,
+        ]
+        super().__init__(" ".join(part for part in parts if part))
+
+
+class TownFormatError(MjdriveError):
+    """A town folder or OpenDRIVE map that cannot be driven as it stands."""
+
+
+class RouteError(MjdriveError):
+    """Waypoints that no chain of lanes connects, or a route too short to follow."""
+
+
+class ConfigError(MjdriveError):
+    """A setting out of its range, of the wrong type, or without a meaning."""
+
+
+class DataError(MjdriveError):
+    """A data set or episode file that is missing, truncated or made for something else."""
+
+
+class RunError(MjdriveError):
+    """A training run that is missing, incomplete or does not fit what is asked of it."""

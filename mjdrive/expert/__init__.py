@@ -1,0 +1,1 @@
+"""Drivers that know the route and the truth."""

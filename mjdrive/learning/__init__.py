@@ -1,0 +1,1 @@
+"""Where episodes meet networks; the only room that imports torch and models."""

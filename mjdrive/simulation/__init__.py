@@ -1,0 +1,1 @@
+"""Town and car on MuJoCo physics, with rules and cameras."""

@@ -1,0 +1,1 @@
+"""Road networks: from OpenDRIVE to lanes, lights and routes."""

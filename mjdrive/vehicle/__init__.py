@@ -1,0 +1,1 @@
+"""The car: its MJCF, its numbers and what makes it move."""

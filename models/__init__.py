@@ -1,0 +1,1 @@
+"""Pure learning: tensors in, tensors out. Nothing here knows of towns, cars or simulators."""
