@@ -41,3 +41,11 @@ class DataError(MjdriveError):
 
 class RunError(MjdriveError):
     """A training run that is missing, incomplete or does not fit what is asked of it."""
+
+
+class PhysicsError(MjdriveError):
+    """A simulation whose motion is no longer finite."""
+
+
+class RenderError(MjdriveError):
+    """A picture that cannot be drawn on this machine."""

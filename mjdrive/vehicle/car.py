@@ -1,0 +1,192 @@
+"""Drives the car of a compiled scene: commands in, state out, and the forces that MJCF cannot say."""
+
+import mujoco
+import numpy as np
+from jaxtyping import Float
+
+import mjdrive.vehicle.engine  # noqa: F401  (no MUJOCO_LOG.TXT in the user's folder)
+from mjdrive.datatypes import Action, VehicleState
+from mjdrive.geometry import world_from_vehicle, wrap_angle
+from mjdrive.vehicle.assembly import WHEELS
+from mjdrive.vehicle.parameters import VehicleParameters
+from mjdrive.vehicle.tyres import Tyres
+
+AIR_DENSITY = 1.2  # [kg/m3]
+STANDSTILL_SPEED = 0.05  # [m/s] and, of the wheels, [rad/s]
+HOLD_RESERVE = (
+    20.0  # brake torque beyond what gravity and engine ask for before the wheels are locked [N m]
+)
+_STATE = mujoco.mjtState.mjSTATE_INTEGRATION
+
+
+class Car:
+    """The car in a scene built by `assembly.car_on_road`.
+
+    It writes to the model as it drives (tyres, brakes, locks), so every simulation needs a model of its own.
+
+    Attributes:
+        parameters: Masses, lengths and limits.
+        hull_geoms: Numbers of the geoms of the hull that can hit things.
+        tyre_geoms: Numbers of the geoms of the tyres.
+    """
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        self.parameters = parameters = VehicleParameters.default()
+        self.hull_geoms = frozenset(model.geom(name).id for name in ("hull_low", "hull_top"))
+        self.tyre_geoms = frozenset(model.geom(f"tyre_{wheel}").id for wheel in WHEELS)
+        self._model = model
+        self._data = data
+        self._tyres = Tyres(model, parameters)
+        self._body = model.body("car").id
+        self._spin_dof = np.array([model.joint(f"spin_{wheel}").dofadr[0] for wheel in WHEELS])
+        self._spin_qpos = np.array([model.joint(f"spin_{wheel}").qposadr[0] for wheel in WHEELS])
+        self._lock = np.array([model.equality(f"lock_{wheel}").id for wheel in WHEELS])
+        self._rack_qpos = model.joint("steer").qposadr[0]
+        self._throttle = model.actuator("throttle")
+        self._brake = model.actuator("brake")
+        self._steering = model.actuator("steering")
+        front = parameters.brake_front_share
+        self._brake_torque = 0.5 * parameters.brake_torque * np.repeat([front, 1.0 - front], 2)
+        self._tyre_speeds = np.zeros(4)
+        self._brake_applied = 0.0
+        self._holding = False
+
+    def place(self, x: float, y: float, yaw: float, speed: float = 0.0) -> None:
+        """Reset the simulation, clock included, with the car on its wheels.
+
+        Args:
+            x: Rear-axle centre, world frame [m].
+            y: Rear-axle centre, world frame [m].
+            yaw: Heading [rad].
+            speed: Forward speed [m/s].
+        """
+        data, parameters = self._data, self.parameters
+        mujoco.mj_resetData(self._model, data)
+        weight_per_wheel = -parameters.mass * self._model.opt.gravity[2] / len(WHEELS)
+        tyre_deflection = weight_per_wheel / parameters.tyre_vertical_stiffness
+        data.qpos[:3] = x, y, -tyre_deflection
+        data.qpos[3:7] = np.cos(0.5 * yaw), 0.0, 0.0, np.sin(0.5 * yaw)
+        data.qvel[:2] = speed * np.cos(yaw), speed * np.sin(yaw)
+        data.qvel[self._spin_dof] = speed / (parameters.wheel_radius - tyre_deflection)
+        self._holding = False
+        self.update()
+        mujoco.mj_forward(self._model, data)
+
+    def command(self, action: Action) -> None:
+        """Set pedals and steering wheel; values beyond [-1, 1] count as the nearest limit.
+
+        Args:
+            action: Positive acceleration is throttle, negative is brake; positive steering turns left.
+        """
+        acceleration = np.clip(action.acceleration, -1.0, 1.0)
+        self._data.ctrl[self._throttle.id] = max(acceleration, 0.0)
+        self._data.ctrl[self._brake.id] = max(-acceleration, 0.0)
+        self._data.ctrl[self._steering.id] = np.clip(action.steering, -1.0, 1.0)
+
+    def update(self) -> None:
+        """Renew brakes, air drag, tyres and standstill hold from the state; call it some fifty times a second."""
+        data = self._data
+        travel = float(np.hypot(data.qvel[0], data.qvel[1]))
+        rolling = np.abs(data.qvel[self._spin_dof])
+        brake = float(data.act[self._brake.actadr[0]])
+        drag = -0.5 * AIR_DENSITY * self.parameters.drag_area * travel
+        data.xfrc_applied[self._body, :2] = drag * data.qvel[:2]
+        self._apply(np.maximum(travel, rolling * self.parameters.wheel_radius), brake)
+        self._hold(travel + float(rolling.max()), brake)
+
+    def state(self) -> VehicleState:
+        """Read where the car is and how it moves, at the rear axle."""
+        qpos, qvel = self._data.qpos, self._data.qvel
+        rotation = np.empty(9)
+        mujoco.mju_quat2Mat(rotation, qpos[3:7])
+        world_from_car = rotation.reshape(3, 3)
+        yaw = float(np.arctan2(world_from_car[1, 0], world_from_car[0, 0]))
+        return VehicleState(
+            x=float(qpos[0]),
+            y=float(qpos[1]),
+            yaw=wrap_angle(yaw),
+            speed=float(np.cos(yaw) * qvel[0] + np.sin(yaw) * qvel[1]),
+            yaw_rate=float(world_from_car[2] @ qvel[3:6]),
+            steering_angle=float(qpos[self._rack_qpos]),
+        )
+
+    def save(self) -> Float[np.ndarray, " S"]:
+        """Take all that the future of the simulation depends on.
+
+        Returns:
+            MuJoCo's integration state, then tyre speeds [m/s], brake [-], hold flag and lock angles [rad].
+        """
+        physics = np.empty(mujoco.mj_stateSize(self._model, _STATE))
+        mujoco.mj_getState(self._model, self._data, physics, _STATE)
+        lock_angles = self._model.eq_data[self._lock, 0]
+        written = [*self._tyre_speeds, self._brake_applied, float(self._holding), *lock_angles]
+        return np.concatenate([physics, written])
+
+    def restore(self, saved: Float[np.ndarray, " S"]) -> None:
+        """Go back to what `save` took; the simulation goes on from there bit by bit as it did then.
+
+        Args:
+            saved: What `save` returned, from a model of the same scene.
+        """
+        size = mujoco.mj_stateSize(self._model, _STATE)
+        assert len(saved) == size + 10, f"{len(saved)} numbers saved, {size + 10} needed"
+        physics, written = saved[:size].astype(float), saved[size:]
+        self._apply(written[:4].astype(float), float(written[4]))
+        self._holding = bool(written[5])
+        self._model.eq_data[self._lock, 0] = written[6:]
+        mujoco.mj_setState(self._model, self._data, physics, _STATE)
+        mujoco.mj_forward(self._model, self._data)
+        mujoco.mj_setState(
+            self._model, self._data, physics, _STATE
+        )  # the solver's warm start again
+
+    def footprint(self) -> Float[np.ndarray, "4 2"]:
+        """Corners of the car on the ground.
+
+        Returns:
+            Front left, front right, rear right, rear left, world frame [m].
+        """
+        parameters = self.parameters
+        front = parameters.length - parameters.rear_overhang
+        rear, side = -parameters.rear_overhang, 0.5 * parameters.width
+        return self._to_world([[front, side], [front, -side], [rear, -side], [rear, side]])
+
+    def wheel_contacts(self) -> Float[np.ndarray, "4 2"]:
+        """Points on the ground under the wheel centres.
+
+        Returns:
+            Front left, front right, rear left, rear right, world frame [m].
+        """
+        front, side = self.parameters.wheelbase, 0.5 * self.parameters.track
+        return self._to_world([[front, side], [front, -side], [0.0, side], [0.0, -side]])
+
+    def _to_world(self, points: list[list[float]]) -> Float[np.ndarray, "N 2"]:
+        state = self.state()
+        return world_from_vehicle(np.array(points), x=state.x, y=state.y, yaw=state.yaw)
+
+    def _apply(self, tyre_speeds: Float[np.ndarray, " 4"], brake: float) -> None:
+        # Coulomb friction in the spin joints is solved together with the contacts: it holds at standstill and never
+        # drives the wheel backwards, which a velocity servo or a damper would.
+        torque = self.parameters.rolling_torque + brake * self._brake_torque
+        self._model.dof_frictionloss[self._spin_dof] = torque
+        self._tyres.schedule(tyre_speeds)
+        self._tyre_speeds, self._brake_applied = tyre_speeds, brake
+
+    def _hold(self, motion: float, brake: float) -> None:
+        """Lock the wheels of a stopped car while its brake can carry it, and free them when it cannot."""
+        data, model, parameters = self._data, self._model, self.parameters
+        throttle = float(data.act[self._throttle.actadr[0]])
+        downhill = abs(float(data.xmat[self._body].reshape(3, 3)[:, 0] @ model.opt.gravity))
+        needed = (
+            throttle * parameters.drive_torque
+            + parameters.mass * downhill * parameters.wheel_radius
+            + HOLD_RESERVE
+        )
+        strong_enough = brake * parameters.brake_torque > needed
+        if self._holding and not strong_enough:
+            self._holding = False
+            data.eq_active[self._lock] = 0
+        elif not self._holding and strong_enough and motion < STANDSTILL_SPEED:
+            self._holding = True
+            model.eq_data[self._lock, 0] = data.qpos[self._spin_qpos]
+            data.eq_active[self._lock] = 1

@@ -1,0 +1,119 @@
+"""The numbers of the car, read from its MJCF."""
+
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+from mjdrive.vehicle.assembly import WHEELS, car_path
+
+_SLEW = 1  # where a `pid` actuator keeps slewmax in its dynprm
+
+
+@dataclass(frozen=True, slots=True)
+class VehicleParameters:
+    """Masses, lengths and limits of the car.
+
+    Attributes:
+        mass: Whole car with wheels [kg].
+        wheelbase: Distance between the axles [m].
+        track: Distance between the wheels of an axle [m].
+        wheel_radius: Unloaded tyre [m].
+        centre_of_gravity_ahead: Ahead of the rear axle [m].
+        centre_of_gravity_height: Above the ground [m].
+        length: Footprint, bumper to bumper [m].
+        width: Footprint [m].
+        rear_overhang: Footprint behind the rear axle [m].
+        max_steering_angle: Centre steering angle of the front wheels at full lock [rad].
+        max_steering_rate: How fast that angle follows the command [rad/s].
+        cornering_stiffness_front: Lateral force per slip angle of one front tyre [N/rad].
+        cornering_stiffness_rear: Lateral force per slip angle of one rear tyre [N/rad].
+        tyre_vertical_stiffness: One tyre [N/m].
+        tyre_vertical_damping: One tyre [N s/m].
+        drive_torque: Axle torque at full throttle from rest [N m].
+        brake_torque: All wheels together at full brake [N m].
+        brake_front_share: Part of it on the front axle [-].
+        rolling_torque: Rolling resistance of one wheel [N m].
+        drag_area: Drag coefficient times frontal area [m2].
+    """
+
+    mass: float
+    wheelbase: float
+    track: float
+    wheel_radius: float
+    centre_of_gravity_ahead: float
+    centre_of_gravity_height: float
+    length: float
+    width: float
+    rear_overhang: float
+    max_steering_angle: float
+    max_steering_rate: float
+    cornering_stiffness_front: float
+    cornering_stiffness_rear: float
+    tyre_vertical_stiffness: float
+    tyre_vertical_damping: float
+    drive_torque: float
+    brake_torque: float
+    brake_front_share: float
+    rolling_torque: float
+    drag_area: float
+
+    @property
+    def front_overhang(self) -> float:
+        """Footprint ahead of the front axle [m]."""
+        return self.length - self.rear_overhang - self.wheelbase
+
+    @staticmethod
+    @cache
+    def default() -> "VehicleParameters":
+        """Numbers of the car that ships with mjdrive."""
+        return VehicleParameters.read(car_path())
+
+    @staticmethod
+    def read(path: Path) -> "VehicleParameters":
+        """Read the numbers out of the MJCF of a car.
+
+        Args:
+            path: MJCF file with the names of car.xml.
+
+        Returns:
+            What the file says; nothing is assumed.
+        """
+        model = mujoco.MjModel.from_xml_path(str(path))
+        data = mujoco.MjData(model)
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        wheels = np.array([data.body(f"wheel_{wheel}").xpos for wheel in WHEELS])
+        front_left, front_right, rear_left = wheels[:3]
+        hull, half = model.geom("hull_low").pos, model.geom("hull_low").size
+        ahead, _, height = data.body("car").subtree_com
+        steering = model.actuator("steering")
+        front, rear = _numeric(model, "cornering_stiffness")
+        return VehicleParameters(
+            mass=float(model.body("car").subtreemass[0]),
+            wheelbase=float(front_left[0] - rear_left[0]),
+            track=float(front_left[1] - front_right[1]),
+            wheel_radius=float(model.geom("tyre_fl").size[0]),
+            centre_of_gravity_ahead=float(ahead),
+            centre_of_gravity_height=float(height),
+            length=float(2 * half[0]),
+            width=float(2 * half[1]),
+            rear_overhang=float(half[0] - hull[0]),
+            max_steering_angle=float(model.joint("steer").range[1]),
+            max_steering_rate=float(steering.dynprm[_SLEW] / steering.gear[0]),
+            cornering_stiffness_front=float(front),
+            cornering_stiffness_rear=float(rear),
+            tyre_vertical_stiffness=float(_numeric(model, "tyre_vertical_stiffness")[0]),
+            tyre_vertical_damping=float(_numeric(model, "tyre_vertical_damping")[0]),
+            drive_torque=float(model.actuator("throttle").gainprm[0]),
+            brake_torque=float(_numeric(model, "brake_torque")[0]),
+            brake_front_share=float(_numeric(model, "brake_front_share")[0]),
+            rolling_torque=float(model.dof_frictionloss[model.joint("spin_fl").dofadr[0]]),
+            drag_area=float(_numeric(model, "drag_area")[0]),
+        )
+
+
+def _numeric(model: mujoco.MjModel, name: str) -> np.ndarray:
+    return model.numeric(name).data

@@ -1,0 +1,71 @@
+"""A slip-angle tyre out of MuJoCo's own contact friction.
+
+Inside the friction cone an elliptic contact row is viscous: force = (B / R_f) slip speed, where B is the damping of the
+pair's solreffriction, R_f = R_n / impratio and R_n = (1 - d) / d * A with the impedance d of solimp and the inverse
+weight A of the wheel. A tyre in its linear range is force = C slip speed / speed. So R_f = B speed / C makes MuJoCo's
+contact a tyre with cornering stiffness C, saturated by the friction circle, that sticks as the speed goes to zero.
+
+R_n stays far above A: then the normal row is the tyre's spring, and sliding does not make the contact hover.
+"""
+
+import mujoco
+import numpy as np
+from jaxtyping import Float
+
+from mjdrive.vehicle.assembly import WHEELS
+from mjdrive.vehicle.parameters import VehicleParameters
+
+MIN_SPEED = 1e-3  # of the tyre law [m/s]; below it the tyre sticks
+STEP_DAMPING = 0.9  # timestep * B; the explicit friction row is stable below 1
+IMPEDANCE_RATIO = 300.0
+MIN_NORMAL_REGULARIZATION = 0.2  # R_n [1/kg]; the impedance ratio rises near standstill to keep it
+OTHER_REGULARIZATION = 1.0  # R_n against kerbs, walls and poles [1/kg]
+OTHER_DAMPING = 100.0  # against the same [N s/m]
+
+
+class Tyres:
+    """Writes the tyre law into the four tyre-road pairs of a model."""
+
+    def __init__(self, model: mujoco.MjModel, parameters: VehicleParameters) -> None:
+        wheels = [model.body(f"wheel_{wheel}").id for wheel in WHEELS]
+        self._model = model
+        self._pairs = np.array([model.pair(f"tyre_{wheel}").id for wheel in WHEELS])
+        self._inverse_weight = model.body_invweight0[wheels, 0]
+        self._cornering_stiffness = np.repeat(
+            [parameters.cornering_stiffness_front, parameters.cornering_stiffness_rear], 2
+        )
+        self._spring = parameters.tyre_vertical_stiffness
+        self._damping = parameters.tyre_vertical_damping
+        self._slip_damping = STEP_DAMPING / model.opt.timestep
+        self._soften_other_contacts([model.geom(f"tyre_{wheel}").id for wheel in WHEELS])
+
+    def schedule(self, speeds: Float[np.ndarray, " 4"]) -> None:
+        """Set the friction impedance for the speed of each tyre.
+
+        Args:
+            speeds: Larger of travel and rolling speed, in the order of `WHEELS` [m/s].
+        """
+        model, pairs = self._model, self._pairs
+        friction_regularization = (
+            self._slip_damping * np.maximum(speeds, MIN_SPEED) / self._cornering_stiffness
+        )
+        ratio = max(IMPEDANCE_RATIO, MIN_NORMAL_REGULARIZATION / friction_regularization.min())
+        impedance = self._inverse_weight / (self._inverse_weight + ratio * friction_regularization)
+        impedance = np.clip(impedance, 1e-4, 0.9999)
+        regularization = (1.0 - impedance) / impedance * self._inverse_weight
+        model.opt.impratio = ratio
+        model.pair_solimp[pairs, 0] = impedance
+        model.pair_solimp[pairs, 1] = impedance
+        model.pair_solref[pairs, 0] = -self._spring * regularization * impedance
+        model.pair_solref[pairs, 1] = -self._damping * regularization * impedance
+        model.pair_solreffriction[pairs, 0] = -1.0
+        model.pair_solreffriction[pairs, 1] = -self._slip_damping * impedance
+
+    def _soften_other_contacts(self, geoms: list[int]) -> None:
+        """Give a tyre the same spring against kerbs and walls; a rigid one would kick three times as hard."""
+        impedance = self._inverse_weight / (self._inverse_weight + OTHER_REGULARIZATION)
+        scale = OTHER_REGULARIZATION * impedance
+        self._model.geom_solimp[geoms, 0] = impedance
+        self._model.geom_solimp[geoms, 1] = impedance
+        self._model.geom_solref[geoms, 0] = -self._spring * scale
+        self._model.geom_solref[geoms, 1] = -OTHER_DAMPING * scale
