@@ -72,9 +72,9 @@ def read(path: Path) -> Episode:
     return from_bytes(content, name=str(path))
 
 
-def digest(path: Path) -> str:
-    """SHA-256 of a file, hexadecimal."""
-    return hashlib.sha256(path.read_bytes()).hexdigest()
+def digest(content: bytes) -> str:
+    """SHA-256 of the content of a file, hexadecimal."""
+    return hashlib.sha256(content).hexdigest()
 
 
 def to_bytes(episode: Episode) -> bytes:
