@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 import cattrs
 
-from mjdrive.errors import ConfigError
+from mjdrive.errors import ConfigError, UnknownNameError
 
 Config = TypeVar("Config")
 
@@ -130,3 +130,137 @@ class SimulationConfig:
                 f"{longer} is {getattr(self, longer)} s and {shorter} is {getattr(self, shorter)} s; "
                 f"expected a whole number of the second in the first.",
             )
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class RulesConfig:
+    """Limits of the rules (defaults: Leaderboard 1.0).
+
+    Attributes:
+        light_distance: Lights farther from the car than this are not looked at; Roach has 30 [m].
+        stop_line_share: Half length of the watched stop line over the lane width; 0.6 in newer Leaderboards [-].
+        same_hit_time: A touch of the same thing within this time of the last one is no new collision [s].
+        same_hit_distance: Nor is one within this distance of the last one [m].
+    """
+
+    light_distance: float = 15.0
+    stop_line_share: float = 0.4
+    same_hit_time: float = 5.0
+    same_hit_distance: float = 3.0
+
+    def __post_init__(self) -> None:
+        require(
+            0 < self.stop_line_share <= 1,
+            f"stop_line_share is {self.stop_line_share}; expected a share of the lane width in (0, 1].",
+        )
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class PidConfig:
+    """Settings of the PID expert.
+
+    Structure and speeds are those of the paper's expert; the gains are re-tuned to this car, whose full lock is
+    0.60 rad where CARLA's is about 0.66 rad on average and whose rack moves at 0.48 rad/s.
+
+    Attributes:
+        target_speed: Speed on straight roads [m/s].
+        turn_speed: Speed in turns and bends [m/s].
+        turn_radius: A route tighter than this is a turn [m].
+        lateral_acceleration: Tight turns are driven slower than turn_speed to stay below this [m/s2].
+        speed_gains: P [1/(m/s)], I [1/m] and D [1/(m/s2)] on the speed error.
+        steering_gains: P [1/rad], I [1/(rad s)] and D [s/rad] on the heading angle to the target point.
+        integral_window: Number of past errors that the integral sees [-].
+        target_distance: Distance to the target point on the route [m].
+        turn_target_distance: The same while entering a turn [m].
+        throttle_cut: Smallest factor on the throttle while steering [-].
+        braking: Deceleration planned towards a stop line or a slower stretch [m/s2].
+        brake_gain: Brake per speed error above the plan [1/(m/s)].
+        stop_gap: Distance between the nose and the stop line at rest [m].
+        late_braking: A light that turns yellow is passed when stopping would need more than this [m/s2].
+    """
+
+    target_speed: float = 6.0
+    turn_speed: float = 4.5
+    turn_radius: float = 30.0
+    lateral_acceleration: float = 2.5
+    speed_gains: tuple[float, float, float] = (0.5, 0.025, 0.1)
+    steering_gains: tuple[float, float, float] = (2.2, 0.05, 0.0)
+    integral_window: int = 30
+    target_distance: float = 5.0
+    turn_target_distance: float = 5.5
+    throttle_cut: float = 0.25
+    braking: float = 2.5
+    brake_gain: float = 0.5
+    stop_gap: float = 1.0
+    late_braking: float = 5.0
+
+    def __post_init__(self) -> None:
+        require(
+            0 < self.turn_speed <= self.target_speed,
+            f"turn_speed is {self.turn_speed} m/s; expected more than 0 and at most target_speed "
+            f"({self.target_speed} m/s).",
+        )
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class DisturbanceConfig:
+    """How the driven action is disturbed while the clean one stays the label.
+
+    Attributes:
+        steering_rate_per_min: Steering pulses that start per minute of quiet driving [1/min].
+        steering_amplitude: Largest peak of a pulse; the smallest is a third of it [-].
+        steering_duration: Length of a pulse [s].
+        stop_rate_per_min: Short stops per minute [1/min].
+        stop_duration: Length of a stop's braking [s].
+        stop_brake: Brake command of a stop [-].
+    """
+
+    steering_rate_per_min: float = 12.0
+    steering_amplitude: float = 0.4
+    steering_duration: float = 1.2
+    stop_rate_per_min: float = 1.0
+    stop_duration: float = 2.5
+    stop_brake: float = 0.4
+
+    def __post_init__(self) -> None:
+        for name in ("steering_amplitude", "stop_brake"):
+            value = getattr(self, name)
+            require(0 <= value <= 1, f"{name} is {value}; expected a command in [0, 1].")
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class CollectConfig:
+    """How demonstrations are collected.
+
+    Attributes:
+        routes: Names of the routes to drive, in order; empty for all of the town.
+        repeats: Times that each route is driven, with other lights and disturbances [-].
+        disturbance: How the drive is disturbed, or None for the paper's noise-free demonstrations.
+        pid: Settings of the expert.
+        step_limit_per_metre: Control steps allowed per metre of route before the expert counts as stuck [1/m].
+    """
+
+    routes: tuple[str, ...] = ()
+    repeats: int = 1
+    disturbance: DisturbanceConfig | None = DisturbanceConfig()
+    pid: PidConfig = PidConfig()
+    step_limit_per_metre: float = 10.0
+
+    def __post_init__(self) -> None:
+        require(self.repeats >= 1, f"repeats is {self.repeats}; expected at least 1.")
+
+
+def collect_preset(name: str) -> CollectConfig:
+    """Settings of `collect` by name: "standard", "quick" (three routes) or "paper" (no disturbance).
+
+    Raises:
+        UnknownNameError: If there is no preset of that name.
+    """
+    presets = {
+        "standard": CollectConfig(),
+        "quick": CollectConfig(routes=("0", "1", "4")),
+        "paper": CollectConfig(disturbance=None),
+    }
+    if name not in presets:
+        raise UnknownNameError("collect preset", name, presets)
+    return presets[name]

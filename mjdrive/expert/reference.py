@@ -1,0 +1,103 @@
+"""What an expert wants: where the route goes, how fast it may be driven, and where it must stop."""
+
+from typing import NamedTuple
+
+import numpy as np
+from jaxtyping import Float
+
+from mjdrive.config import PidConfig
+from mjdrive.datatypes import Route, Signal, Situation, Town
+
+
+class StopLine(NamedTuple):
+    """A light on the route.
+
+    Attributes:
+        station: Where its stop line crosses the route [m].
+        light: Name of the light.
+    """
+
+    station: float
+    light: str
+
+
+def stop_lines(town: Town, route: Route) -> tuple[StopLine, ...]:
+    """Find the lights along a route.
+
+    Args:
+        town: Where the route lies.
+        route: Path to follow.
+
+    Returns:
+        Stop lines in the order in which they are met; a lane that the route leaves before its end has none.
+    """
+    found = []
+    for index, name in enumerate(route.lanes[:-1]):
+        light = town.lanes[name].light
+        if light is not None:
+            last = np.flatnonzero(route.lane_index == index)[-1]
+            following = min(last + 1, len(route.station) - 1)
+            middle = town.lights[light].stop_line.mean(axis=0)
+            past = np.hypot(*(route.points[last] - middle))
+            found.append(
+                StopLine(float(min(route.station[last] + past, route.station[following])), light)
+            )
+    return tuple(found)
+
+
+def point_ahead(route: Route, station: float) -> Float[np.ndarray, "2"]:
+    """World point of a route at a station [m]; the end of the route beyond it."""
+    return np.array([np.interp(station, route.station, route.points[:, axis]) for axis in (0, 1)])
+
+
+def turn_speed_limit(situation: Situation, config: PidConfig) -> float:
+    """Fastest speed from which every bend ahead can still be met at its own speed.
+
+    Args:
+        situation: Where the car is on its route.
+        config: Speeds, braking and what counts as a turn.
+
+    Returns:
+        Speed limit here [m/s].
+    """
+    route = situation.route
+    ahead = route.station - situation.station
+    curvature = np.abs(route.curvature)
+    horizon = config.target_speed**2 / (2 * config.braking)
+    is_turn = (ahead >= -1.0) & (ahead <= horizon) & (curvature > 1 / config.turn_radius)
+    if not is_turn.any():
+        return config.target_speed
+    in_turn = np.minimum(
+        config.turn_speed, np.sqrt(config.lateral_acceleration / curvature[is_turn])
+    )
+    here = np.sqrt(in_turn**2 + 2 * config.braking * np.maximum(ahead[is_turn], 0.0))
+    return float(min(here.min(), config.target_speed))
+
+
+def distance_to_stop(
+    situation: Situation, stops: tuple[StopLine, ...], *, nose_ahead: float, config: PidConfig
+) -> float | None:
+    """How far the car may still roll before it must stand.
+
+    Args:
+        situation: Where the car is on its route, and the lights.
+        stops: Lights on the route.
+        nose_ahead: Distance of the nose ahead of the rear axle [m].
+        config: Gap to keep, and which late yellow is passed.
+
+    Returns:
+        Distance to the resting place [m], or None if nothing ahead asks to stop.
+    """
+    nose = situation.station + nose_ahead
+    for stop in stops:
+        # A nose just over the line at walking pace still waits: the infraction comes with the tail.
+        to_line = stop.station - nose
+        if to_line < -1.0:
+            continue
+        if situation.lights[stop.light] is Signal.GREEN:
+            return None
+        needed = situation.vehicle.speed**2 / (2 * max(to_line, 0.05))
+        if needed > config.late_braking:
+            return None
+        return to_line - config.stop_gap
+    return None

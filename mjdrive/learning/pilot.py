@@ -1,0 +1,56 @@
+"""Trained network -> `Policy[Observation]`."""
+
+from pathlib import Path
+
+import torch
+
+from mjdrive.datatypes import Action, Observation
+from mjdrive.errors import RunError
+from models import checkpoint
+from models.errors import ModelsError
+from models.interfaces import Learner
+
+
+class Pilot:
+    """Drives with a trained network.
+
+    Args:
+        learner: The network.
+        name: How summaries call it.
+    """
+
+    def __init__(self, learner: Learner, *, name: str) -> None:
+        self.name = name
+        self._learner = learner.eval()
+        self._generator = torch.Generator()
+
+    def reset(self, seed: int) -> None:
+        """Start a new stream of random numbers."""
+        self._generator.manual_seed(seed)
+
+    @torch.inference_mode()
+    def act(self, view: Observation) -> Action:
+        """Choose the action for the next control interval."""
+        bev = torch.tensor(view.bev)[None]
+        state = torch.tensor(view.state)[None]
+        chosen = self._learner.act(bev, state, generator=self._generator)
+        acceleration, steering = chosen[0].tolist()
+        return Action(acceleration=acceleration, steering=steering)
+
+
+def load(run: Path) -> Pilot:
+    """Load the policy of a training run.
+
+    Args:
+        run: Folder that `mjdrive train` made.
+
+    Returns:
+        The policy, named after the folder.
+
+    Raises:
+        RunError: If the folder is no run, or a file of it is damaged.
+    """
+    try:
+        return Pilot(checkpoint.load(run), name=run.name)
+    except ModelsError as error:
+        raise RunError(str(error)) from error

@@ -1,0 +1,46 @@
+"""Which contacts of the car matter to the rules."""
+
+import mujoco
+import numpy as np
+
+from mjdrive.datatypes import InfractionKind
+
+_ROAD, _HULL, _TYRE, _KERB, _OBSTACLE = range(5)
+_ROLES = {"hull": _HULL, "tyre": _TYRE, "kerb": _KERB, "building": _OBSTACLE, "pole": _OBSTACLE}
+_TYRE_ON_ROAD = {_ROAD, _TYRE}
+
+
+class ContactWatch:
+    """Names what the car touches, from the contacts of the last physics step.
+
+    Args:
+        model: Compiled scene; geoms are known by the first word of their name.
+        data: Its state.
+    """
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        self._data = data
+        self._names = [model.geom(index).name for index in range(model.ngeom)]
+        self._role = np.array([_ROLES.get(name.split("_")[0], _ROAD) for name in self._names])
+
+    def hits(self) -> set[tuple[InfractionKind, str]]:
+        """Everything that the car touches now, tyres on the road left out.
+
+        Returns:
+            Kind and name of each thing; all kerbs share the name "kerb", so one scrape is one event.
+        """
+        found = set()
+        for pair in self._data.contact.geom:
+            roles = {int(role) for role in self._role[pair]}
+            if roles == _TYRE_ON_ROAD or not roles & {_HULL, _TYRE}:
+                continue
+            if roles == {_TYRE, _KERB}:
+                found.add((InfractionKind.KERB, "kerb"))
+            elif _KERB in roles:
+                found.add((InfractionKind.COLLISION, "kerb"))
+            else:
+                others = [
+                    self._names[geom] for geom in pair if self._role[geom] not in (_HULL, _TYRE)
+                ]
+                found.update((InfractionKind.COLLISION, name) for name in others)
+        return found
