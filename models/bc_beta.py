@@ -1,0 +1,113 @@
+"""Behavioural cloning with a Beta distribution over each action."""
+
+import torch
+from jaxtyping import Float, UInt8
+from torch import Tensor, nn
+from torch.distributions import Beta
+from torch.nn import functional as F  # noqa: N812
+
+from models.config import LearnerConfig
+from models.encoder import HIDDEN_SIZE, Encoder, drop_previous_action
+from models.interfaces import ACTION_SIZE, Batch, Learner, weighted_mean
+
+# Softplus underflows to zero, where the Beta density does not exist.
+SMALLEST_CONCENTRATION = 1e-6
+
+
+def unit_from_action(actions: Float[Tensor, "B 2"], *, label_clamp: float) -> Float[Tensor, "B 2"]:
+    """Bring actions from [-1, 1] into the open unit interval, where a Beta density is finite.
+
+    Args:
+        actions: Acceleration and steering in [-1, 1] [-].
+        label_clamp: Smallest distance that is kept from 0 and 1 [-].
+
+    Returns:
+        The actions in [label_clamp, 1 - label_clamp] [-].
+    """
+    return ((actions + 1) / 2).clamp(label_clamp, 1 - label_clamp)
+
+
+def beta_mode(alpha: Float[Tensor, "B 2"], beta: Float[Tensor, "B 2"]) -> Float[Tensor, "B 2"]:
+    """Where a Beta density is highest; its mean where it has two peaks or none.
+
+    Args:
+        alpha: First concentration [-].
+        beta: Second concentration [-].
+
+    Returns:
+        A point in [0, 1] [-].
+    """
+    peaked = (alpha > 1) & (beta > 1)
+    inner = (alpha - 1) / torch.where(peaked, alpha + beta - 2, 1.0)
+    at_zero = (alpha <= 1) & (beta > 1)
+    at_one = (alpha > 1) & (beta <= 1)
+    edge_or_mean = torch.where(at_zero, 0.0, torch.where(at_one, 1.0, alpha / (alpha + beta)))
+    return torch.where(peaked, inner, edge_or_mean)
+
+
+class BcBetaLearner(Learner):
+    """Explicit and unimodal: an observation gives the two concentrations of each action."""
+
+    def __init__(self, config: LearnerConfig) -> None:
+        super().__init__()
+        self.config = config
+        self.encoder = Encoder(config.network)
+        self.head = nn.Sequential(
+            nn.Linear(self.encoder.feature_size, HIDDEN_SIZE),
+            nn.ReLU(),
+            nn.Linear(HIDDEN_SIZE, HIDDEN_SIZE),
+            nn.ReLU(),
+        )
+        self.alpha = nn.Linear(HIDDEN_SIZE, ACTION_SIZE)
+        self.beta = nn.Linear(HIDDEN_SIZE, ACTION_SIZE)
+
+    def distribution(self, bev: UInt8[Tensor, "B C H W"], state: Float[Tensor, "B 3"]) -> Beta:
+        """Distribution of the actions rescaled to [0, 1] [-], in single precision."""
+        hidden = self.head(self.encoder(bev, state))
+        alpha, beta = (
+            F.softplus(layer(hidden).float())
+            + self.config.beta.beta_offset
+            + SMALLEST_CONCENTRATION
+            for layer in (self.alpha, self.beta)
+        )  # (B, 2) each
+        return Beta(alpha, beta, validate_args=False)
+
+    def loss(
+        self, batch: Batch, *, weights: Float[Tensor, " B"] | None, generator: torch.Generator
+    ) -> Float[Tensor, ""]:
+        """Mean negative log-likelihood of the expert actions, less the entropy bonus [nats]."""
+        settings = self.config.beta
+        state = drop_previous_action(batch.state, self.config.network.state_dropout, generator)
+        distribution = self.distribution(batch.bev, state)
+        labels = unit_from_action(batch.actions, label_clamp=settings.label_clamp)
+        losses = -distribution.log_prob(labels).sum(dim=1)  # (B,)
+        if settings.entropy_bonus > 0:
+            losses = losses - settings.entropy_bonus * distribution.entropy().sum(dim=1)
+        return weighted_mean(losses, weights)
+
+    @torch.no_grad()
+    def act(
+        self,
+        bev: UInt8[Tensor, "B C H W"],
+        state: Float[Tensor, "B 3"],
+        *,
+        generator: torch.Generator,
+    ) -> Float[Tensor, "B 2"]:
+        """Mode, mean or a sample of the distribution, as the settings say."""
+        distribution = self.distribution(bev, state)
+        if self.config.beta.inference == "mode":
+            unit = beta_mode(distribution.concentration1, distribution.concentration0)
+        elif self.config.beta.inference == "mean":
+            unit = distribution.mean
+        else:
+            unit = _sample(distribution, generator)
+        return 2 * unit - 1
+
+
+def _sample(distribution: Beta, generator: torch.Generator) -> Tensor:
+    """Draw from a distribution with a generator, which torch.distributions does not take."""
+    device = generator.device
+    seed = int(torch.randint(2**62, (), generator=generator, device=device))
+    with torch.random.fork_rng(devices=[device] if device.type == "cuda" else []):
+        torch.manual_seed(seed)
+        return distribution.sample()

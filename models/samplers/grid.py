@@ -1,0 +1,46 @@
+"""Exact choice on a grid: two action components are few enough to score every one."""
+
+import torch
+from jaxtyping import Float
+from torch import Tensor
+
+from models.config import GridConfig
+from models.samplers.dfo import EnergyFunction, draw_categorical
+
+
+def action_grid(points: int, *, device: torch.device | None = None) -> Float[Tensor, "N 2"]:
+    """Every pair of `points` evenly spaced accelerations and steerings in [-1, 1], acceleration outermost.
+
+    Args:
+        points: Points along each axis; an odd number has zero among them.
+        device: Where the grid lies.
+
+    Returns:
+        points ** 2 actions [-].
+    """
+    axis = torch.linspace(-1.0, 1.0, points, device=device)
+    return torch.cartesian_prod(axis, axis)
+
+
+def choose(
+    energy: EnergyFunction,
+    config: GridConfig,
+    *,
+    generator: torch.Generator,
+) -> Float[Tensor, "B 2"]:
+    """Choose a grid point for each observation: the lowest, or one drawn from exp(-E / temperature).
+
+    Args:
+        energy: Scores candidates.
+        config: Grid, choice and temperature.
+        generator: Source of chance; the grid lies on its device.
+
+    Returns:
+        Acceleration and steering [-].
+    """
+    actions = action_grid(config.points, device=generator.device)
+    energies = energy(actions[None])  # (B, N)
+    if config.choice == "argmin":
+        return actions[energies.argmin(dim=1)]
+    probabilities = torch.softmax(-energies / config.temperature, dim=1)
+    return actions[draw_categorical(probabilities, 1, generator=generator).squeeze(1)]
