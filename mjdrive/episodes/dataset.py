@@ -1,7 +1,6 @@
 """A data set: a folder of episode files and the manifest that describes and guards them."""
 
 from collections import Counter
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,7 +9,6 @@ from mjdrive import config
 from mjdrive.datatypes import Episode
 from mjdrive.episodes import store
 from mjdrive.errors import ConfigError, DataError
-from mjdrive.files import write_atomically
 from mjdrive.town import library
 
 FORMAT = "mjdrive-dataset-1"
@@ -82,7 +80,7 @@ def describe(episode: Episode, *, name: str, file: str, content: bytes) -> Episo
 
 def write_manifest(manifest: Manifest, folder: Path) -> None:
     """Write the description of a data set into its folder."""
-    write_atomically(folder / MANIFEST, config.to_json(manifest).encode())
+    config.write_json(manifest, folder / MANIFEST)
 
 
 def read_manifest(folder: Path) -> Manifest:
@@ -109,6 +107,20 @@ def read_manifest(folder: Path) -> Manifest:
             f"'{path}' has format '{manifest.format}'; expected '{FORMAT}'. Collect the data set again."
         )
     return manifest
+
+
+def digest(folder: Path) -> str:
+    """SHA-256 of the manifest, and so of everything in the data set, hexadecimal."""
+    return store.digest((folder / MANIFEST).read_bytes())
+
+
+def remove(folder: Path) -> None:
+    """Delete a data set, but nothing else that may be in its folder."""
+    if not (folder / MANIFEST).is_file():
+        return
+    for entry in read_manifest(folder).episodes:
+        (folder / entry.file).unlink(missing_ok=True)
+    (folder / MANIFEST).unlink()
 
 
 def read_dataset(folder: Path) -> tuple[Manifest, list[Episode]]:
@@ -160,17 +172,6 @@ def is_intact(folder: Path, entry: EpisodeEntry) -> bool:
     """Whether the file of an entry is there, byte for byte."""
     path = folder / entry.file
     return path.is_file() and store.digest(path.read_bytes()) == entry.sha256
-
-
-def same_collection(first: Manifest, second: Manifest) -> Mapping[str, tuple[Any, Any]]:
-    """Compare what two data sets are made from.
-
-    Returns:
-        The fields in which they differ, with both values; empty if one can go on where the other stopped.
-    """
-    names = ("format", "town", "town_digest", "seed", "settings", "versions", "num_planned")
-    pairs = {name: (getattr(first, name), getattr(second, name)) for name in names}
-    return {name: pair for name, pair in pairs.items() if pair[0] != pair[1]}
 
 
 def _short(digest: str) -> str:

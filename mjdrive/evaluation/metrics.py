@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float
 
+from mjdrive import versions
 from mjdrive.datatypes import Episode, InfractionKind, Signal, Town, TrafficLight
 from mjdrive.evaluation.branches import branches_taken
 from mjdrive.town import signals
@@ -89,11 +90,7 @@ def summarise(episode: Episode, town: Town) -> DriveSummary:
         stuck_s=_rounded(np.count_nonzero(stuck) * interval),
         score=_rounded(distance * RED_LIGHT_FACTOR ** counts[InfractionKind.RED_LIGHT]),
         branches_taken=branches_taken(episode, town),
-        versions={
-            key.removeprefix("version."): value
-            for key, value in sorted(episode.metadata.items())
-            if key.startswith("version.")
-        },
+        versions=versions.from_metadata(episode.metadata),
     )
 
 

@@ -1,0 +1,34 @@
+"""Versions of what decides the bytes that mjdrive writes."""
+
+import importlib.metadata
+import platform
+from collections.abc import Mapping
+
+import mjdrive
+
+PREFIX = "version."
+"""`Episode.metadata` names that begin so hold the version of a package."""
+
+
+def versions() -> dict[str, str]:
+    """Versions of mjdrive, Python, MuJoCo, NumPy and torch, without importing them."""
+    packages = ("mujoco", "numpy", "torch")
+    return {
+        "mjdrive": mjdrive.__version__,
+        "python": platform.python_version(),
+        **{name: importlib.metadata.version(name) for name in packages},
+    }
+
+
+def to_metadata(versions: Mapping[str, str]) -> dict[str, str]:
+    """Name versions as `Episode.metadata` does."""
+    return {PREFIX + package: version for package, version in versions.items()}
+
+
+def from_metadata(metadata: Mapping[str, str]) -> dict[str, str]:
+    """The versions that the metadata of an episode hold, by package; undoes `to_metadata`."""
+    return {
+        name.removeprefix(PREFIX): version
+        for name, version in sorted(metadata.items())
+        if name.startswith(PREFIX)
+    }
