@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 import cattrs
 
 from mjdrive.errors import ConfigError, UnknownNameError
+from mjdrive.files import write_atomically
 
 Config = TypeVar("Config")
 
@@ -17,6 +18,11 @@ _CONVERTER = cattrs.Converter(forbid_extra_keys=True)
 def to_json(config: object) -> str:
     """Write a frozen settings dataclass as JSON text."""
     return json.dumps(_CONVERTER.unstructure(config), indent=2) + "\n"
+
+
+def write_json(config: object, path: Path) -> None:
+    """Write a frozen dataclass as a JSON file, whole or not at all."""
+    write_atomically(path, to_json(config).encode())
 
 
 def from_dict(kind: type[Config], values: dict[str, Any]) -> Config:
