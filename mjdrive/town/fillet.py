@@ -1,0 +1,105 @@
+"""Lines and arcs that join two directed points without a kink."""
+
+from typing import NamedTuple
+
+import numpy as np
+from jaxtyping import Float
+
+from mjdrive.errors import TownFormatError
+from mjdrive.town.road_map import Piece
+
+_KINK = 1e-4
+"""Change of heading that counts as none [rad]."""
+
+_SHORTEST_LINE = 1e-6
+"""Lines below this length are left out [m]."""
+
+
+class Pose(NamedTuple):
+    """A directed point of the plane, world frame.
+
+    Attributes:
+        point: Position, shape (2,) [m].
+        direction: Unit vector of travel, shape (2,) [-].
+    """
+
+    point: Float[np.ndarray, "2"]
+    direction: Float[np.ndarray, "2"]
+
+    def to_the_right(self, distance: float) -> "Pose":
+        """Shift the pose sideways by a distance [m]."""
+        along_x, along_y = self.direction
+        return Pose(self.point + distance * np.array([along_y, -along_x]), self.direction)
+
+
+def join(start: Pose, end: Pose, *, radius: float | None, what: str) -> tuple[Piece, ...]:
+    """Join two poses by line, arc and line.
+
+    Args:
+        start: Where the path begins.
+        end: Where it ends.
+        radius: Radius of the arc [m]; the largest that fits if None.
+        what: How an error calls the path.
+
+    Returns:
+        Pieces of a reference line that starts at s = 0; lines of no length are left out.
+
+    Raises:
+        TownFormatError: If an arc of this radius does not fit between the poses.
+    """
+    angle = float(
+        np.arctan2(_cross(start.direction, end.direction), start.direction @ end.direction)
+    )
+    if abs(angle) < _KINK:
+        return _chain(start, end, [(float(np.hypot(*(end.point - start.point))), 0.0)])
+    gap = end.point - start.point
+    lead_in = _cross(gap, end.direction) / np.sin(angle)
+    lead_out = _cross(start.direction, gap) / np.sin(angle)
+    half_tangent = np.tan(abs(angle) / 2.0)
+    largest = min(lead_in, lead_out) / half_tangent
+    radius = largest if radius is None else radius
+    if not 0.0 < radius <= largest + 1e-9:
+        raise TownFormatError(
+            f"{what} asks for a radius of {radius:.2f} m; expected more than 0 and at most {largest:.2f} m between "
+            "its ends. Take a smaller radius or move the ends apart."
+        )
+    tangent = radius * half_tangent
+    return _chain(
+        start,
+        end,
+        [
+            (lead_in - tangent, 0.0),
+            (radius * abs(angle), float(np.copysign(1.0 / radius, angle))),
+            (lead_out - tangent, 0.0),
+        ],
+    )
+
+
+def _cross(first: Float[np.ndarray, "2"], second: Float[np.ndarray, "2"]) -> float:
+    return float(first[0] * second[1] - first[1] * second[0])
+
+
+def _chain(start: Pose, end: Pose, stretches: list[tuple[float, float]]) -> tuple[Piece, ...]:
+    """Lay stretches (length, curvature) one behind the other."""
+    only_line = len(stretches) == 1
+    along = end.point - start.point if only_line else start.direction
+    s, (x, y), heading = 0.0, start.point, float(np.arctan2(along[1], along[0]))
+    pieces = []
+    for length, curvature in stretches:
+        if length < _SHORTEST_LINE:
+            continue
+        # Rounded to a nanometre: a map file that people can read.
+        metres = [round(float(value), 9) for value in (s, x, y)]
+        pieces.append(
+            Piece(
+                *metres,
+                round(float(heading), 12),
+                round(float(length), 9),
+                round(float(curvature), 12),
+            )
+        )
+        middle = heading + 0.5 * curvature * length
+        chord = length * np.sinc(0.5 * curvature * length / np.pi)
+        x, y = x + chord * np.cos(middle), y + chord * np.sin(middle)
+        s, heading = s + length, heading + curvature * length
+    return tuple(pieces)

@@ -1,0 +1,103 @@
+"""Find and load the towns of assets/towns."""
+
+import hashlib
+from functools import lru_cache
+from pathlib import Path
+
+from mjdrive.config import read_json
+from mjdrive.datatypes import Town
+from mjdrive.errors import TownFormatError, UnknownNameError
+from mjdrive.town import opendrive
+from mjdrive.town.network import build_town
+from mjdrive.town.settings import TownSettings
+
+MAP_FILE = "map.xodr"
+SETTINGS_FILE = "town.json"
+
+
+def towns_folder() -> Path:
+    """Find the folder of the towns: that of the checkout, or the copy inside an installed package.
+
+    Raises:
+        TownFormatError: If neither is there.
+    """
+    package = Path(__file__).resolve().parent.parent
+    places = (package.parent / "assets" / "towns", package / "assets" / "towns")
+    for place in places:
+        if place.is_dir():
+            return place
+    searched = " and ".join(f"'{place}'" for place in places)
+    raise TownFormatError(
+        f"Found no towns in {searched}. Install mjdrive again, or work in a whole checkout."
+    )
+
+
+def town_names() -> tuple[str, ...]:
+    """List the towns that can be loaded by name, in alphabetical order."""
+    return tuple(sorted(path.parent.name for path in towns_folder().glob(f"*/{MAP_FILE}")))
+
+
+def folder_of(name: str) -> Path:
+    """Find the folder of a town.
+
+    Raises:
+        UnknownNameError: If there is no town of that name.
+    """
+    if name not in town_names():
+        raise UnknownNameError(
+            "town", name, town_names(), hint=f"Towns are folders in '{towns_folder()}'."
+        )
+    return towns_folder() / name
+
+
+@lru_cache(maxsize=8)
+def load(name: str) -> Town:
+    """Load a town by name; a second call gives the same object.
+
+    Args:
+        name: One of `town_names()`.
+
+    Returns:
+        The town.
+
+    Raises:
+        UnknownNameError: If there is no town of that name.
+        TownFormatError: If its map cannot be driven.
+        ConfigError: If its town.json cannot be read.
+    """
+    return load_folder(folder_of(name))
+
+
+def load_settings(name: str) -> TownSettings:
+    """Read the light timing, routes and scenery of a town.
+
+    Raises:
+        UnknownNameError: If there is no town of that name.
+        ConfigError: If its town.json cannot be read.
+    """
+    return read_json(TownSettings, folder_of(name) / SETTINGS_FILE)
+
+
+def load_folder(folder: Path) -> Town:
+    """Load a town from any folder that holds map.xodr and town.json.
+
+    Args:
+        folder: The folder; its name is the name of the town.
+
+    Returns:
+        The town.
+
+    Raises:
+        TownFormatError: If a file is missing or the map cannot be driven.
+        ConfigError: If town.json cannot be read.
+    """
+    paths = [folder / MAP_FILE, folder / SETTINGS_FILE]
+    for path in paths:
+        if not path.is_file():
+            raise TownFormatError(
+                f"Town folder '{folder}' has no {path.name}; expected {MAP_FILE} and {SETTINGS_FILE}."
+            )
+    settings = read_json(TownSettings, paths[1])
+    digest = hashlib.sha256(b"\0".join(path.read_bytes() for path in paths)).hexdigest()
+    name = folder.resolve().name
+    return build_town(opendrive.read(paths[0]), name=name, timing=settings.lights, digest=digest)

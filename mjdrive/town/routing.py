@@ -1,0 +1,270 @@
+"""Routes along the lanes of a town."""
+
+import heapq
+from itertools import pairwise
+
+import numpy as np
+from jaxtyping import Float
+
+from mjdrive.datatypes import Lane, Route, Town
+from mjdrive.errors import RouteError, UnknownNameError
+from mjdrive.geometry import (
+    Projection,
+    curvatures,
+    headings,
+    project,
+    resample,
+    stations,
+    wrap_angle,
+)
+
+POINT_SPACING = 1.0
+"""Distance between the points of a route [m]."""
+
+_METRES_PER_RADIAN = 1.0
+"""How far a lane may lie further off when its heading fits better by one radian [m/rad]."""
+
+_CLEAR_BEFORE_JUNCTION = 15.0
+"""Least distance from a random start to the end of its lane [m]."""
+
+
+def lane_length(lane: Lane) -> float:
+    """Length of a lane along its centre line [m]."""
+    return float(stations(lane.centerline)[-1])
+
+
+def nearest_lane(
+    town: Town, point: Float[np.ndarray, "2"], *, yaw: float | None = None
+) -> tuple[str, Projection]:
+    """Find the lane that a point lies on, or the one closest to it.
+
+    Args:
+        town: The town.
+        point: Position in the world frame [m].
+        yaw: Heading that tells overlapping lanes and directions apart [rad]; distance alone decides if None.
+
+    Returns:
+        Name of the lane, and the point projected onto its centre line.
+    """
+    reach = {
+        name: float(np.min(np.hypot(*(lane.centerline - point).T)))
+        for name, lane in town.lanes.items()
+    }
+    # Points of a centre line are at most half a metre apart, so no other lane can be nearer; with a heading,
+    # lanes that lie further off compete too.
+    margin = 0.5 + (0.0 if yaw is None else np.pi * _METRES_PER_RADIAN)
+    closest = min(reach.values())
+    best: tuple[float, str, Projection] | None = None
+    for name, distance in reach.items():
+        if distance > closest + margin:
+            continue
+        projection = project(town.lanes[name].centerline, point)
+        cost = abs(projection.offset)
+        if yaw is not None:
+            along = np.diff(
+                town.lanes[name].centerline[projection.segment : projection.segment + 2], axis=0
+            )[0]
+            cost += _METRES_PER_RADIAN * abs(
+                wrap_angle(yaw - float(np.arctan2(along[1], along[0])))
+            )
+        if best is None or cost < best[0]:
+            best = (cost, name, projection)
+    assert best is not None
+    return best[1], best[2]
+
+
+def route_through(town: Town, waypoints: Float[np.ndarray, "K 2"]) -> Route:
+    """Lay the shortest route through waypoints in their order, along the direction of the lanes.
+
+    Args:
+        town: The town.
+        waypoints: Places on lanes in the world frame [m]; where lanes overlap, all that a place lies on count.
+
+    Returns:
+        Route from the first to the last waypoint.
+
+    Raises:
+        RouteError: If a waypoint lies on no lane or cannot be reached from the one before.
+    """
+    if len(waypoints) < 2:
+        raise RouteError(f"A route has {len(waypoints)} waypoints; expected two or more.")
+    places = [_places(town, index, waypoint) for index, waypoint in enumerate(waypoints)]
+    lengths = {name: lane_length(lane) for name, lane in town.lanes.items()}
+    trees: dict[str, dict[str, tuple[float, str]]] = {}
+    # Dynamic programming: the best way to each place of a waypoint extends the best way to a place before it.
+    ways = {place: (off, [place[0]]) for place, off in places[0].items()}
+    starts = {place: place for place in ways}
+    for index, current in enumerate(places[1:], start=1):
+        following, following_starts = {}, {}
+        for place, off in current.items():
+            for before, (cost, chain) in ways.items():
+                leg = _leg(town, lengths, trees, before, place)
+                if leg is not None and (
+                    place not in following or cost + off + leg[0] < following[place][0]
+                ):
+                    following[place] = (cost + off + leg[0], chain + leg[1])
+                    following_starts[place] = starts[before]
+        if not following:
+            raise RouteError(
+                f"Waypoint {index} {_text(waypoints[index])} cannot be reached from waypoint {index - 1} "
+                f"{_text(waypoints[index - 1])} along the lanes. Check the side of the road that it lies on."
+            )
+        ways, starts = following, following_starts
+    end = min(ways, key=lambda place: ways[place][0])
+    return _route(town, ways[end][1], start=starts[end][1], end=end[1])
+
+
+def random_route(
+    town: Town, *, lane: str, station: float, length: float, rng: np.random.Generator
+) -> Route:
+    """Follow the lanes, choosing each way at a junction with the same probability.
+
+    Args:
+        town: The town.
+        lane: Name of the lane to start on.
+        station: Where on it to start [m].
+        length: Length of the route [m].
+        rng: Source of the choices.
+
+    Returns:
+        Route of exactly that length.
+
+    Raises:
+        UnknownNameError: If there is no such lane.
+        RouteError: If the station is not on the lane or the lanes come to a dead end.
+    """
+    if lane not in town.lanes:
+        raise UnknownNameError("lane", lane, town.lanes)
+    if not 0.0 <= station <= lane_length(town.lanes[lane]):
+        raise RouteError(
+            f"Station {station} m is not on lane '{lane}'; expected 0 to {lane_length(town.lanes[lane]):.2f} m."
+        )
+    chain = [lane]
+    left = length - (lane_length(town.lanes[lane]) - station)
+    while left > 0.0:
+        successors = town.lanes[chain[-1]].successors
+        if not successors:
+            raise RouteError(
+                f"Lane '{chain[-1]}' is a dead end after {length - left:.1f} m of {length} m."
+            )
+        chain.append(successors[int(rng.integers(len(successors)))])
+        left -= lane_length(town.lanes[chain[-1]])
+    return _route(town, chain, start=station, end=lane_length(town.lanes[chain[-1]]) + left)
+
+
+def random_start(town: Town, rng: np.random.Generator) -> tuple[str, float]:
+    """Draw a place to start, uniform over the lanes outside junctions, 15 m or more before their ends.
+
+    Args:
+        town: The town.
+        rng: Source of the draw.
+
+    Returns:
+        Name of the lane and station on it [m].
+
+    Raises:
+        RouteError: If no lane is long enough.
+    """
+    room = {
+        name: lane_length(lane) - _CLEAR_BEFORE_JUNCTION
+        for name, lane in town.lanes.items()
+        if lane.junction is None and lane_length(lane) > _CLEAR_BEFORE_JUNCTION
+    }
+    if not room:
+        raise RouteError(
+            f"Town '{town.name}' has no lane outside junctions longer than {_CLEAR_BEFORE_JUNCTION} m."
+        )
+    names = list(room)
+    ends = np.cumsum([room[name] for name in names])
+    draw = rng.uniform(0.0, ends[-1])
+    index = int(np.searchsorted(ends, draw, side="right"))
+    return names[index], float(draw - (ends[index] - room[names[index]]))
+
+
+def _places(
+    town: Town, index: int, waypoint: Float[np.ndarray, "2"]
+) -> dict[tuple[str, float], float]:
+    """Find the lanes that a waypoint lies on: (name, station) and distance from the centre line."""
+    found = {}
+    for name, lane in town.lanes.items():
+        if np.min(np.hypot(*(lane.centerline - waypoint).T)) <= lane.width:
+            projection = project(lane.centerline, waypoint)
+            if abs(projection.offset) <= lane.width / 2:
+                found[name, projection.station] = abs(projection.offset)
+    if not found:
+        name, projection = nearest_lane(town, waypoint)
+        raise RouteError(
+            f"Waypoint {index} {_text(waypoint)} lies on no lane; the nearest, '{name}', is "
+            f"{abs(projection.offset):.2f} m away."
+        )
+    return found
+
+
+def _text(point: Float[np.ndarray, "2"]) -> str:
+    return f"({point[0]:.1f}, {point[1]:.1f})"
+
+
+def _leg(
+    town: Town,
+    lengths: dict[str, float],
+    trees: dict[str, dict[str, tuple[float, str]]],
+    start: tuple[str, float],
+    end: tuple[str, float],
+) -> tuple[float, list[str]] | None:
+    """Join two places: the distance and the lanes entered on the way, or None without a way."""
+    if start[0] == end[0] and end[1] >= start[1]:
+        return end[1] - start[1], []
+    if start[0] not in trees:
+        trees[start[0]] = _shortest_paths(town, lengths, start[0])
+    tree = trees[start[0]]
+    if end[0] not in tree:
+        return None
+    chain = [end[0]]
+    while (before := tree[chain[-1]][1]) != start[0]:
+        chain.append(before)
+    return lengths[start[0]] - start[1] + tree[end[0]][0] + end[1], chain[::-1]
+
+
+def _shortest_paths(
+    town: Town, lengths: dict[str, float], start: str
+) -> dict[str, tuple[float, str]]:
+    """Dijkstra from the end of a lane: distance to the start of each lane, and the lane before it."""
+    tree: dict[str, tuple[float, str]] = {}
+    queue = [(0.0, name, start) for name in town.lanes[start].successors]
+    heapq.heapify(queue)
+    while queue:
+        distance, name, before = heapq.heappop(queue)
+        if name in tree:
+            continue
+        tree[name] = (distance, before)
+        for following in town.lanes[name].successors:
+            heapq.heappush(queue, (distance + lengths[name], following, name))
+    return tree
+
+
+def _route(town: Town, chain: list[str], *, start: float, end: float) -> Route:
+    """Lay points along a chain of lanes, from a station on the first to a station on the last."""
+    lines = [town.lanes[name].centerline for name in chain]
+    ends = np.cumsum([stations(line)[-1] for line in lines])
+    for first, second in pairwise(chain):
+        assert second in town.lanes[first].successors, f"{second} does not follow {first}"
+    line = np.concatenate([lines[0], *(line[1:] for line in lines[1:])])
+    station = stations(line)
+    stop = (ends[-2] if len(ends) > 1 else 0.0) + end
+    if stop - start < POINT_SPACING:
+        raise RouteError(
+            f"The route is {stop - start:.2f} m long; expected at least {POINT_SPACING} m."
+        )
+    inside = (station > start + 1e-9) & (station < stop - 1e-9)
+    cut = np.concatenate([[start], station[inside], [stop]])
+    trimmed = np.stack([np.interp(cut, station, line[:, axis]) for axis in (0, 1)], axis=1)
+    points = resample(trimmed, POINT_SPACING)
+    along = np.minimum(POINT_SPACING * np.arange(len(points)), stop - start)
+    return Route(
+        lanes=tuple(chain),
+        points=points,
+        station=along,
+        yaw=headings(points),
+        curvature=curvatures(points),
+        lane_index=np.searchsorted(ends[:-1], along + start + 1e-9, side="right"),
+    )

@@ -1,0 +1,54 @@
+"""What the lights show: a pure function of time."""
+
+import numpy as np
+
+from mjdrive.datatypes import Signal, Town, TrafficLight
+
+_PHASE_STREAM = 0x116475
+"""Keeps the numbers drawn for lights apart from others of the same seed."""
+
+
+def at(light: TrafficLight, time: float) -> Signal:
+    """Tell what a light shows.
+
+    Args:
+        light: The light.
+        time: Time on the clock of the lights, any sign [s].
+
+    Returns:
+        The signal; it changes exactly at the start of each stretch of the program.
+    """
+    position = (time + light.offset) % duration(light)
+    for signal, length in light.program:
+        if position < length:
+            return signal
+        position -= length
+    return light.program[-1][0]  # rounding may leave a hair beyond the last stretch
+
+
+def all_at(town: Town, time: float) -> dict[str, Signal]:
+    """Tell what every light of a town shows at a time [s], by name."""
+    return {name: at(light, time) for name, light in town.lights.items()}
+
+
+def duration(light: TrafficLight) -> float:
+    """Length of one cycle of a light [s]."""
+    return sum(length for _, length in light.program)
+
+
+def cycle(town: Town) -> float:
+    """Length of the longest light cycle of a town [s]; 0 without lights."""
+    return max((duration(light) for light in town.lights.values()), default=0.0)
+
+
+def phase(town: Town, seed: int) -> float:
+    """Draw where in their cycle the lights of a town are when an episode starts.
+
+    Args:
+        town: The town.
+        seed: Seed of the episode.
+
+    Returns:
+        Time to add to the clock of the episode, uniform in [0, cycle) [s].
+    """
+    return float(np.random.default_rng([_PHASE_STREAM, seed]).uniform(0.0, cycle(town)))
