@@ -7,6 +7,7 @@ Coach, ICCV 2021, which the authors of DA-IBC built their earlier agents on.
 import torch
 from jaxtyping import Float, UInt8
 from torch import Tensor, nn
+from torch.nn import functional as F  # noqa: N812
 
 from models.config import STATE_INPUTS, NetworkConfig
 
@@ -36,11 +37,35 @@ def drop_previous_action(
     return torch.cat((state[:, :1], state[:, 1:] * kept), dim=1)
 
 
+class BlockConv2d(nn.Conv2d):
+    """A 5 x 5 convolution of stride 2, trained as a 3 x 3 one of stride 1 over blocks of 2 x 2 pixels.
+
+    The weights and, but for rounding, the results are those of `nn.Conv2d`; the gradient with respect to few
+    input channels takes a tenth of the time on a CPU in bfloat16.
+    """
+
+    def forward(self, x: Float[Tensor, "B C H W"]) -> Float[Tensor, "B K I J"]:
+        """Convolve a picture of even height and width."""
+        if not torch.is_grad_enabled() or x.device.type != "cpu":
+            return super().forward(x)
+        blocks = _blocks(x)
+        weight = _blocks(F.pad(self.weight, (0, 1, 0, 1)))  # 6 x 6 with a zero edge -> 3 x 3
+        return F.conv2d(blocks, weight, self.bias)
+
+
+def _blocks(x: Float[Tensor, "B C H W"]) -> Float[Tensor, "B D I J"]:
+    """Stack blocks of 2 x 2 pixels into channels; quicker than pixel_unshuffle where channels come last."""
+    rows = x.permute(0, 2, 3, 1)  # (B, H, W, C)
+    blocks = rows.unflatten(2, (-1, 2)).unflatten(1, (-1, 2)).permute(0, 1, 3, 2, 4, 5)
+    return blocks.flatten(3).permute(0, 3, 1, 2)  # (B, 4 C, H / 2, W / 2)
+
+
 def _convolutions() -> nn.Sequential:
     layers: list[nn.Module] = []
     channels = BEV_CHANNELS
-    for channels_out, kernel_size, stride in CONVOLUTIONS:
-        convolution = nn.Conv2d(channels, channels_out, kernel_size, stride)
+    for index, (channels_out, kernel_size, stride) in enumerate(CONVOLUTIONS):
+        kind = BlockConv2d if index == 1 else nn.Conv2d
+        convolution = kind(channels, channels_out, kernel_size, stride)
         nn.init.xavier_uniform_(convolution.weight, gain=nn.init.calculate_gain("relu"))
         nn.init.constant_(convolution.bias, 0.1)  # type: ignore[arg-type]
         layers += [convolution, nn.ReLU()]
@@ -94,6 +119,6 @@ class Encoder(nn.Module):
             if torch.is_autocast_enabled(device)
             else self.state_scale.dtype
         )
-        pixels = bev.contiguous(memory_format=torch.channels_last).to(dtype) / 255
+        pixels = bev.contiguous(memory_format=torch.channels_last).to(dtype).mul_(1 / 255)
         image = self.projection(self.image(pixels))  # (B, 1024) or (B, 256)
         return self.joint(torch.cat((image, self.state(state * self.state_scale)), dim=1))
