@@ -115,12 +115,11 @@ def digest(folder: Path) -> str:
 
 
 def remove(folder: Path) -> None:
-    """Delete a data set, but nothing else that may be in its folder."""
-    if not (folder / MANIFEST).is_file():
-        return
-    for entry in read_manifest(folder).episodes:
-        (folder / entry.file).unlink(missing_ok=True)
-    (folder / MANIFEST).unlink()
+    """Delete the manifest and the episode files of a data set; a folder without a manifest is left alone."""
+    if (folder / MANIFEST).is_file():
+        for path in folder.glob("*.hdf5"):
+            path.unlink()
+        (folder / MANIFEST).unlink()
 
 
 def read_dataset(folder: Path) -> tuple[Manifest, list[Episode]]:

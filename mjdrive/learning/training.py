@@ -6,19 +6,18 @@ from pathlib import Path
 
 import torch
 
-from mjdrive import config as settings
-from mjdrive.episodes import dataset, provenance, store
+from mjdrive.config import read_json, write_json
+from mjdrive.episodes import dataset
 from mjdrive.errors import RunError
-from mjdrive.files import write_atomically
+from mjdrive.learning import runs
 from mjdrive.learning.batches import PackedDemonstrations
 from mjdrive.town import library
+from mjdrive.versions import versions
 from models.config import LearnerConfig
 from models.errors import ModelsError
 from models.learners import build_learner
 from models.progress import EpochReport, StepReport
 from models.training import fit
-
-SOURCE = "source.json"
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -37,6 +36,22 @@ class Source:
     num_demonstrations: int
     versions: dict[str, str]
 
+    def require_same(self, earlier: "Source", run: Path) -> None:
+        """Refuse to go on with a run that was begun on other data.
+
+        Args:
+            earlier: What the run was trained on so far.
+            run: Its folder, for the message.
+
+        Raises:
+            RunError: If town or data set differ.
+        """
+        if (self.town, self.manifest_sha256) != (earlier.town, earlier.manifest_sha256):
+            raise RunError(
+                f"'{run}' was begun on another data set of {earlier.town} ({earlier.num_demonstrations} pairs; here "
+                f"are {self.num_demonstrations}). Resume with --data as before, or start again with --overwrite."
+            )
+
 
 def train(
     config: LearnerConfig,
@@ -45,6 +60,7 @@ def train(
     run: Path,
     seed: int,
     resume: bool = False,
+    overwrite: bool = False,
     device: str = "cpu",
     on_frame: Callable[[int, int], None] | None = None,
     on_step: Callable[[StepReport], None] | None = None,
@@ -58,6 +74,7 @@ def train(
         run: Folder to write checkpoint, metrics and settings to.
         seed: Decides first weights, order of the data and negatives.
         resume: Whether to go on from the last complete epoch in `run`.
+        overwrite: Whether a run that is in `run` is replaced, once the data are found to be whole.
         device: Where to train, as torch names it.
         on_frame: Told how many of how many views are drawn.
         on_step: Told about each step.
@@ -70,6 +87,10 @@ def train(
         DataError: If the data folder is missing, unfinished or damaged.
         RunError: If the run folder is in use, or there is nothing to resume.
     """
+    if resume:
+        runs.require_begun(run)
+    elif not overwrite:
+        runs.require_free(run)
     manifest, episodes = dataset.read_dataset(data)
     total = sum(entry.steps for entry in manifest.episodes)
     demonstrations = PackedDemonstrations(
@@ -79,12 +100,17 @@ def train(
     ).to(torch.device(device))
     source = Source(
         town=manifest.town,
-        manifest_sha256=store.digest((data / dataset.MANIFEST).read_bytes()),
+        manifest_sha256=dataset.digest(data),
         num_demonstrations=len(demonstrations),
-        versions=provenance.versions(),
+        versions=versions(),
     )
+    if resume:
+        source.require_same(read_json(Source, run / runs.SOURCE), run)
+    elif overwrite:
+        runs.remove(run)
+    write_json(source, run / runs.SOURCE)
     try:
-        reports = fit(
+        return fit(
             build_learner(config, seed=seed),
             demonstrations,
             config,
@@ -97,5 +123,3 @@ def train(
         )
     except ModelsError as error:
         raise RunError(str(error)) from error
-    write_atomically(run / SOURCE, settings.to_json(source).encode())
-    return reports

@@ -1,0 +1,88 @@
+"""`mjdrive collect`: let the expert drive the routes of a town."""
+
+from pathlib import Path
+
+import rich_click as click
+
+
+@click.command()
+@click.option("--town", "town_name", required=True, metavar="NAME", help="Town to drive in.")
+@click.option(
+    "--preset",
+    default="standard",
+    show_default=True,
+    metavar="standard|paper|quick",
+    help="What is driven: every route disturbed (standard), undisturbed (paper), or a few routes (quick).",
+)
+@click.option(
+    "--noise",
+    type=click.FloatRange(0.0, 2.5),
+    metavar="SCALE",
+    help="Scale of the disturbances: 0 drives cleanly, 1 is the standard. The clean action stays the label.",
+)
+@click.option(
+    "--seed",
+    default=0,
+    show_default=True,
+    type=click.IntRange(min=0),
+    help="Same seed, same files.",
+)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Data folder. [default: data/<town>]",
+)
+@click.option("--overwrite", is_flag=True, help="Replace a data set that is in the folder.")
+def collect(
+    *,
+    town_name: str,
+    preset: str,
+    noise: float | None,
+    seed: int,
+    out: Path | None,
+    overwrite: bool,
+) -> None:
+    """Collect demonstrations: the expert drives the routes of a town.
+
+    An interrupted collection can be run again and goes on.
+    """
+    import numpy as np
+
+    from mjdrive import config
+    from mjdrive.cli.console import closing_table, progress_bars
+    from mjdrive.episodes import dataset
+    from mjdrive.episodes.demonstrations import collect as collect_routes
+    from mjdrive.town import library
+    from mjdrive.town.routing import route_through
+
+    settings = config.collect_preset(preset)
+    if noise is not None:
+        settings = config.with_noise(settings, noise)
+    town = library.load(town_name)
+    waypoints = library.load_settings(town_name).routes
+    routes = {name: route_through(town, np.array(places)) for name, places in waypoints.items()}
+    folder = out or Path("data") / town.name
+    if overwrite:
+        dataset.remove(folder)
+    with progress_bars() as bars:
+        tasks = {}
+
+        def report(name: str, done: int, expected: int) -> None:
+            if name not in tasks:
+                tasks[name] = bars.add_task(name)
+            bars.update(tasks[name], completed=done, total=expected)
+
+        manifest = collect_routes(town, routes, folder, settings=settings, seed=seed, report=report)
+    num_steps = sum(entry.steps for entry in manifest.episodes)
+    num_infractions = sum(sum(entry.infractions.values()) for entry in manifest.episodes)
+    closing_table(
+        f"Demonstrations in {town.name}",
+        {
+            "folder": folder,
+            "episodes": len(manifest.episodes),
+            "steps": f"{num_steps:,}",
+            "infractions": num_infractions,
+        },
+        next_command="mjdrive train da-ibc" + ("" if out is None else f" --data {folder}"),
+    )

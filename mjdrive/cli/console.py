@@ -1,0 +1,62 @@
+"""What the commands show while they work and when they are done."""
+
+from collections.abc import Mapping
+
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    ProgressColumn,
+    SpinnerColumn,
+    Task,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+from rich.table import Table
+from rich.text import Text
+
+
+class RateColumn(ProgressColumn):
+    """How fast a task goes, in its own unit a second."""
+
+    def render(self, task: Task) -> Text:
+        """Show the rate, or nothing before there is one."""
+        rate = task.finished_speed or task.speed
+        unit = task.fields.get("unit", "steps")
+        return Text("" if rate is None else f"{rate:,.1f} {unit}/s", style="progress.data.speed")
+
+
+def progress_bars() -> Progress:
+    """Bars with count, rate and time left, on stderr so that stdout stays clean; use it as a context."""
+    return Progress(
+        SpinnerColumn(finished_text="[green]✓"),
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        RateColumn(),
+        TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(),
+        console=Console(stderr=True),
+    )
+
+
+def closing_table(title: str, rows: Mapping[str, object], *, next_command: str) -> None:
+    """Say what a command made and what to do with it.
+
+    Args:
+        title: What the command did.
+        rows: Names and values of what was made.
+        next_command: The command that the user is likely to want next.
+    """
+    console = Console()
+    table = Table(title=title, title_justify="left", show_header=False)
+    table.add_column(style="bold", no_wrap=True)
+    table.add_column(overflow="fold")
+    for name, value in rows.items():
+        table.add_row(name, str(value))
+    console.print(table)
+    console.print("Next: ", end="")
+    console.print(next_command, style="bold cyan", markup=False, highlight=False, soft_wrap=True)

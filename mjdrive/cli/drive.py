@@ -1,0 +1,83 @@
+"""`mjdrive drive`: let a policy drive freely through a town."""
+
+from pathlib import Path
+
+import rich_click as click
+
+RUNS = Path("runs")
+DRIVES = Path("drives")
+
+
+@click.command()
+@click.option("--town", "town_name", required=True, metavar="NAME", help="Town to drive in.")
+@click.option(
+    "--steps",
+    "num_steps",
+    default=3000,
+    show_default=True,
+    type=click.IntRange(min=1),
+    help="Control steps of 0.1 s.",
+)
+@click.option(
+    "--policy",
+    "policy_name",
+    metavar="RUN|pid|NAME",
+    help="A run folder, the name of one in runs/, or the expert. [default: the newest run]",
+)
+@click.option(
+    "--seed",
+    default=0,
+    show_default=True,
+    type=click.IntRange(min=0),
+    help="Same seed, same drive.",
+)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="New folder for the drive. [default: drives/<date and time>]",
+)
+def drive(
+    *, town_name: str, num_steps: int, policy_name: str | None, seed: int, out: Path | None
+) -> None:
+    """Drive freely through a town, from a random place and with no route.
+
+    Writes the episode, its figures and two pictures.
+    """
+    import datetime
+
+    from mjdrive.cli.console import closing_table, progress_bars
+    from mjdrive.cli.driver import find_driver
+    from mjdrive.evaluation import report
+    from mjdrive.town import library
+
+    town = library.load(town_name)
+    driver = find_driver(policy_name, RUNS)
+    folder = out or report.new_folder(DRIVES, datetime.datetime.now())
+    report.require_new(folder)
+    with progress_bars() as bars:
+        task = bars.add_task(f"{driver.name} in {town.name}", total=num_steps)
+        episode = driver.drive(
+            town,
+            num_steps=num_steps,
+            seed=seed,
+            on_step=lambda done: bars.update(task, completed=done),
+        )
+    summary = report.write_drive(episode, town, folder)
+    closing_table(
+        f"{driver.name} in {town.name}, seed {seed}",
+        {
+            "distance": f"{summary.distance_m:,.1f} m in {summary.duration_s:,.1f} s",
+            "red lights": summary.red_lights,
+            "collisions": summary.collisions,
+            "off road": f"{summary.off_road_s:.1f} s",
+            "score": f"{summary.score:,.1f}",
+            "path": folder / "trajectory.png",
+            "actions": folder / "actions.png",
+            "figures": folder / "summary.json",
+            "episode": folder / "episode.hdf5",
+        },
+        next_command=f"mjdrive drive --town {town.name} --policy pid --seed {seed}"
+        if driver.name != "pid"
+        else f"mjdrive drive --town {town.name} --seed {seed + 1}",
+    )

@@ -1,0 +1,91 @@
+"""Who drives: the expert, or a trained run, behind one call."""
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mjdrive import config, versions
+from mjdrive.datatypes import Episode, Town
+from mjdrive.episodes import driving, store
+from mjdrive.simulation.simulation import Simulation
+
+if TYPE_CHECKING:
+    from mjdrive.learning.pilot import Pilot
+
+EXPERT = "pid"
+
+
+@dataclass(frozen=True, slots=True)
+class Driver:
+    """A policy that is ready to drive.
+
+    Attributes:
+        name: How summaries call it.
+        digest: SHA-256 of its weights, hexadecimal; empty for the expert.
+        pilot: The trained policy, or None for the expert.
+    """
+
+    name: str
+    digest: str = ""
+    pilot: "Pilot | None" = None
+
+    def drive(
+        self, town: Town, *, num_steps: int, seed: int, on_step: Callable[[int], None]
+    ) -> Episode:
+        """Drive freely, from a random place.
+
+        Args:
+            town: Town to drive in.
+            num_steps: Control steps [-].
+            seed: Same seed, same drive.
+            on_step: Told the number of control steps done.
+        """
+        simulation = Simulation(town)
+        settings = {
+            "num_steps": num_steps,
+            "simulation": json.loads(config.to_json(simulation.config)),
+        }
+        metadata = {
+            "town_digest": town.digest,
+            "policy_digest": self.digest,
+            "settings": json.dumps(settings, sort_keys=True),
+            **versions.to_metadata(versions.versions()),
+        }
+        if self.pilot is None:
+            return driving.drive_expert(
+                simulation, num_steps=num_steps, seed=seed, on_step=on_step, metadata=metadata
+            )
+        return driving.drive(
+            simulation,
+            self.pilot,
+            num_steps=num_steps,
+            seed=seed,
+            on_step=on_step,
+            metadata=metadata,
+        )
+
+
+def find_driver(name: str | None, runs: Path) -> Driver:
+    """Find out who shall drive.
+
+    Args:
+        name: "pid", a run folder, the name of a folder in `runs`, or None for the newest of them.
+        runs: Folder of run folders.
+
+    Raises:
+        UnknownNameError: If there is no such policy.
+        RunError: If the folder is no run, or there is no run at all.
+    """
+    if name == EXPERT:
+        return Driver(EXPERT)
+    from mjdrive.learning import pilot  # torch takes a second
+    from mjdrive.learning import runs as run_folders
+    from models import checkpoint
+
+    folder = run_folders.newest(runs) if name is None else run_folders.find(name, runs)
+    policy = pilot.load(folder)
+    return Driver(
+        policy.name, digest=store.digest((folder / checkpoint.MODEL).read_bytes()), pilot=policy
+    )

@@ -1,0 +1,71 @@
+"""Settings of a training run from what the command line says."""
+
+import json
+from collections.abc import Iterable
+from typing import Any
+
+from mjdrive.errors import ConfigError, UnknownNameError
+from models import presets, serialization
+from models.config import LearnerConfig
+from models.errors import SettingError
+
+
+def learner_settings(
+    method: str, *, preset: str = "standard", assignments: Iterable[str] = ()
+) -> LearnerConfig:
+    """Choose the settings of a training run.
+
+    Args:
+        method: "bc-beta", "ibc" or "da-ibc".
+        preset: "quick", "standard" or "paper".
+        assignments: Changes to the preset, each as "optimiser.learning_rate=1e-4".
+
+    Returns:
+        The checked settings.
+
+    Raises:
+        ConfigError: If a method, preset or value is not one of those expected.
+        UnknownNameError: If there is no such setting.
+    """
+    try:
+        config = presets.preset(preset, method)
+        values = json.loads(serialization.to_json(config))
+        for assignment in assignments:
+            _assign(values, assignment)
+        return serialization.from_json(json.dumps(values))
+    except SettingError as error:
+        raise ConfigError(str(error)) from error
+
+
+def _assign(values: dict[str, Any], assignment: str) -> None:
+    """Change one value in nested settings."""
+    path, equals, text = assignment.partition("=")
+    names = path.split(".")
+    if not equals or names == ["method"]:
+        raise ConfigError(
+            f"Cannot set '{assignment}'. Expected a name and a value, as in optimiser.learning_rate=1e-4."
+        )
+    for depth, name in enumerate(names):
+        if not isinstance(values, dict) or name not in values:
+            known = _leaves(values, ".".join([*names[:depth], ""]))
+            raise UnknownNameError("setting", path, known)
+        if depth < len(names) - 1:
+            values = values[name]
+    if isinstance(values[names[-1]], dict):
+        raise UnknownNameError("setting", path, _leaves(values[names[-1]], f"{path}."))
+    values[names[-1]] = _value(text)
+
+
+def _leaves(values: Any, prefix: str) -> list[str]:
+    """Dotted names of everything that can be set below a prefix."""
+    if not isinstance(values, dict):
+        return [prefix.removesuffix(".")]
+    return [leaf for name, value in values.items() for leaf in _leaves(value, f"{prefix}{name}.")]
+
+
+def _value(text: str) -> Any:
+    """Read a value as JSON; what is no JSON is a string, so that names need no quotes."""
+    try:
+        return json.loads(text)
+    except json.JSONDecodeError:
+        return text
