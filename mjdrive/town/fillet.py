@@ -1,5 +1,6 @@
 """Lines and arcs that join two directed points without a kink."""
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -75,6 +76,17 @@ def join(start: Pose, end: Pose, *, radius: float | None, what: str) -> tuple[Pi
     )
 
 
+def length_of(pieces: tuple[Piece, ...]) -> float:
+    """Length of a reference line [m]."""
+    return round(sum(piece.length for piece in pieces), 9)
+
+
+def extend(pieces: tuple[Piece, ...], run: tuple[Piece, ...]) -> tuple[Piece, ...]:
+    """Lay a run of pieces behind others: their s goes on."""
+    start = length_of(pieces)
+    return pieces + tuple(replace(piece, s=round(start + piece.s, 9)) for piece in run)
+
+
 def _cross(first: Float[np.ndarray, "2"], second: Float[np.ndarray, "2"]) -> float:
     return float(first[0] * second[1] - first[1] * second[0])
 
@@ -89,10 +101,10 @@ def _chain(start: Pose, end: Pose, stretches: list[tuple[float, float]]) -> tupl
         if length < _SHORTEST_LINE:
             continue
         # Rounded to a nanometre: a map file that people can read.
-        metres = [round(float(value), 9) for value in (s, x, y)]
+        position = (round(float(s), 9), round(float(x), 9), round(float(y), 9))
         pieces.append(
             Piece(
-                *metres,
+                *position,
                 round(float(heading), 12),
                 round(float(length), 9),
                 round(float(curvature), 12),

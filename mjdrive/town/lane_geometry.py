@@ -1,6 +1,7 @@
 """Where the lanes of an OpenDRIVE road run."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 from jaxtyping import Float
@@ -30,7 +31,8 @@ def evaluate(cubics: Sequence[Cubic], s: Float[np.ndarray, " N"]) -> Float[np.nd
     index = np.clip(np.searchsorted(starts, s + 1e-9, side="right") - 1, 0, None)
     a, b, c, d = (np.array([getattr(cubic, name) for cubic in cubics])[index] for name in "abcd")
     ds = s - starts[index]
-    return a + ds * (b + ds * (c + ds * d))
+    value: Float[np.ndarray, " N"] = a + ds * (b + ds * (c + ds * d))
+    return value
 
 
 def reference_line(
@@ -98,7 +100,7 @@ def _sample(road: Road, section_index: int) -> Float[np.ndarray, " N"]:
     ends = [piece.s for piece in road.pieces if start < piece.s < end]
     knots = [start, *ends, end]
     stations = [np.array([start])]
-    for left, right in zip(knots[:-1], knots[1:], strict=True):
+    for left, right in pairwise(knots):
         if right - left < 1e-6:
             continue
         piece = max((p for p in road.pieces if p.s <= 0.5 * (left + right)), key=lambda p: p.s)

@@ -183,8 +183,10 @@ class _Reader:
             found = ", ".join(f"<{shape.tag}>" for shape in shapes) or "nothing"
             self.fail(element, f"holds {found}; mjdrive drives on <line> and <arc>.")
         curvature = self.number(shapes[0], "curvature") if shapes[0].tag == "arc" else 0.0
-        names = ("s", "x", "y", "hdg", "length")
-        return Piece(*(self.number(element, name) for name in names), curvature)
+        s, x, y, heading, length = (
+            self.number(element, name) for name in ("s", "x", "y", "hdg", "length")
+        )
+        return Piece(s, x, y, heading, length, curvature)
 
     def cubic(self, element: Element, start: str) -> Cubic:
         return Cubic(*(self.number(element, name) for name in (start, "a", "b", "c", "d")))

@@ -31,7 +31,8 @@ def write(road_map: RoadMap) -> bytes:
     for junction in road_map.junctions.values():
         _junction(root, junction)
     etree.indent(root, space=" ")
-    return etree.tostring(root, xml_declaration=True, encoding="UTF-8") + b"\n"
+    document: bytes = etree.tostring(root, xml_declaration=True, encoding="UTF-8")
+    return document + b"\n"
 
 
 def _add(parent: Element, tag: str, **attributes: str | float) -> Element:

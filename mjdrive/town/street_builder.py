@@ -1,11 +1,12 @@
 """From a street plan to an OpenDRIVE map."""
 
 from dataclasses import replace
-from itertools import permutations
+from itertools import pairwise, permutations
 
 import numpy as np
+from jaxtyping import Float
 
-from mjdrive.town.fillet import Pose, join
+from mjdrive.town.fillet import Pose, extend, join, length_of
 from mjdrive.town.network import TRAFFIC_LIGHT_TYPE
 from mjdrive.town.road_map import (
     Connection,
@@ -25,6 +26,9 @@ from mjdrive.town.street_plan import CornerPlan, CrossSection, JunctionPlan, Lig
 _CENTRE_MARK = RoadMark("broken", "yellow", 0.125)
 _KERB_MARK = RoadMark("curb", "standard", 0.152)
 _FIRST_CONNECTING_ROAD = 1000
+
+_BEND_RADIUS = 500.0
+"""Radius of the slight bends of a street [m]."""
 
 
 def build_map(plan: StreetPlan) -> RoadMap:
@@ -67,10 +71,18 @@ def _arms(plan: StreetPlan, node: str) -> dict[str, float]:
 
 def _outward(plan: StreetPlan, road: str, node: str) -> Pose:
     """Where the middle of a street leaves a node, looking away from it."""
-    start, end = plan.streets[road]
-    here, there = np.array(plan.nodes[node]), np.array(plan.nodes[end if node == start else start])
+    corners = _corners(plan, road)
+    here, there = corners[:2] if node == plan.streets[road][0] else corners[:-3:-1]
     direction = (there - here) / np.hypot(*(there - here))
     return Pose(here + _arms(plan, node)[road] * direction, direction)
+
+
+def _corners(plan: StreetPlan, road: str) -> list[Float[np.ndarray, "2"]]:
+    """Ends and bends of a street, in its direction [m]."""
+    start, end = plan.streets[road]
+    return [
+        np.array(point) for point in (plan.nodes[start], *plan.bends.get(road, ()), plan.nodes[end])
+    ]
 
 
 def _inward(plan: StreetPlan, road: str, node: str) -> Pose:
@@ -85,9 +97,19 @@ def _contact(plan: StreetPlan, road: str, node: str) -> str:
 
 def _street(plan: StreetPlan, road: str) -> Road:
     start, end = plan.streets[road]
-    pieces = join(
-        _outward(plan, road, start), _inward(plan, road, end), radius=None, what=f"Street '{road}'"
-    )
+    corners = _corners(plan, road)
+    # Half way between two bends a street is straight: each bend is joined from half way to half way.
+    half_ways = [
+        Pose(0.5 * (here + there), (there - here) / np.hypot(*(there - here)))
+        for here, there in pairwise(corners[1:-1])
+    ]
+    poses = [_outward(plan, road, start), *half_ways, _inward(plan, road, end)]
+    pieces: tuple[Piece, ...] = ()
+    for here, there in pairwise(poses):
+        run = join(
+            here, there, radius=_BEND_RADIUS if len(corners) > 2 else None, what=f"Street '{road}'"
+        )
+        pieces = extend(pieces, run)
     links = [_link_at(plan, road, node) for node in (start, end)]
     return _two_way(road, pieces, links[0], links[1], plan.cross_section)
 
@@ -135,7 +157,17 @@ def _two_way(
                 )
             )
     lanes.sort(key=lambda lane: -lane.id)
-    return _road(road, f"Road {road}", None, pieces, tuple(lanes), before, behind, lane_offset=0.0)
+    return Road(
+        id=road,
+        name=f"Road {road}",
+        length=length_of(pieces),
+        junction=None,
+        pieces=pieces,
+        lane_offsets=(Cubic(0.0, 0.0),),
+        sections=(LaneSection(0.0, tuple(lanes)),),
+        predecessor=before,
+        successor=behind,
+    )
 
 
 def _way(plan: StreetPlan, node: str, come: str, go: str, *, road: str) -> Road:
@@ -157,38 +189,14 @@ def _way(plan: StreetPlan, node: str, come: str, go: str, *, road: str) -> Road:
         predecessor=-1 if before.contact == "end" else 1,
         successor=-1 if behind.contact == "start" else 1,
     )
-    name = f"Junction {node}: {come} to {go}"
-    return _road(
-        road,
-        name,
-        node,
-        pieces,
-        (LaneRecord(0, "none"), lane),
-        before,
-        behind,
-        lane_offset=width / 2,
-    )
-
-
-def _road(
-    road: str,
-    name: str,
-    junction: str | None,
-    pieces: tuple[Piece, ...],
-    lanes: tuple[LaneRecord, ...],
-    before: RoadLink,
-    behind: RoadLink,
-    *,
-    lane_offset: float,
-) -> Road:
     return Road(
         id=road,
-        name=name,
-        length=round(sum(piece.length for piece in pieces), 9),
-        junction=junction,
+        name=f"Junction {node}: {come} to {go}",
+        length=length_of(pieces),
+        junction=node,
         pieces=pieces,
-        lane_offsets=(Cubic(0.0, lane_offset),),
-        sections=(LaneSection(0.0, lanes),),
+        lane_offsets=(Cubic(0.0, width / 2),),
+        sections=(LaneSection(0.0, (LaneRecord(0, "none"), lane)),),
         predecessor=before,
         successor=behind,
     )
@@ -211,16 +219,16 @@ def _junction(node: str, crossing: JunctionPlan, ways: list[Road]) -> Junction:
 
 
 def _signal(plan: StreetPlan, node: str, light: LightPlan, road: Road) -> SignalRecord:
-    (line,) = road.pieces
+    lane = -1 if _contact(plan, light.road, node) == "end" else 1
+    line = road.pieces[-1] if lane < 0 else road.pieces[0]
     along = np.array([np.cos(line.heading), np.sin(line.heading)])
     relative = np.array(light.pole) - np.array([line.x, line.y])
-    lane = -1 if _contact(plan, light.road, node) == "end" else 1
     return SignalRecord(
         id=light.id,
         name=f"Light {light.id}",
         type=TRAFFIC_LIGHT_TYPE,
         # A pole may stand a little behind the end of its road; the standard keeps s on the road.
-        s=round(float(np.clip(relative @ along, 0.0, road.length)), 9),
+        s=round(float(np.clip(line.s + relative @ along, 0.0, road.length)), 9),
         t=round(float(along[0] * relative[1] - along[1] * relative[0]), 9),
         orientation="+" if lane < 0 else "-",
         from_lane=lane,

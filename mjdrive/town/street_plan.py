@@ -1,7 +1,7 @@
 """A town as a compact street plan: nodes, straight streets, one radius a turn."""
 
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from mjdrive.config import from_dict, require
@@ -86,7 +86,7 @@ class JunctionPlan:
 
 @dataclass(frozen=True, slots=True)
 class StreetPlan:
-    """Everything that a map is drawn from. Streets run straight from node to node.
+    """Everything that a map is drawn from. Streets run straight from node to node, or bend slightly on the way.
 
     Ids of roads, corners and junctions are whole numbers written as text; each is used once.
 
@@ -96,6 +96,7 @@ class StreetPlan:
         streets: Ids of the nodes where each street begins and ends, by road id.
         corners: Bends where two streets meet without lights, by node id.
         junctions: T-junctions with lights, by node id.
+        bends: Points where a street changes its direction by a little, in order, by road id [m].
         cross_section: Widths, the same everywhere.
     """
 
@@ -104,6 +105,7 @@ class StreetPlan:
     streets: dict[str, tuple[str, str]]
     corners: dict[str, CornerPlan]
     junctions: dict[str, JunctionPlan]
+    bends: dict[str, tuple[tuple[float, float], ...]] = field(default_factory=dict)
     cross_section: CrossSection = CrossSection()
 
     def __post_init__(self) -> None:
