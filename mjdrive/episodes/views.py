@@ -1,5 +1,7 @@
 """How a simulation looks to a policy: the bird's-eye view for learned ones, the truth for experts."""
 
+import numpy as np
+
 from mjdrive import geometry
 from mjdrive.datatypes import Observation, Route, Situation
 from mjdrive.simulation.simulation import Simulation
@@ -30,7 +32,7 @@ class FollowRoute:
         vehicle = simulation.vehicle
         seen = geometry.project(
             self.route.points,
-            simulation.position,
+            np.array([vehicle.x, vehicle.y]),
             first_segment=max(self._segment - 2, 0),
             last_segment=self._segment + _SEARCH_AHEAD,
         )

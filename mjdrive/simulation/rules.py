@@ -33,7 +33,7 @@ class Rules:
         self._lights = town.lights
         self._half_length = parameters.length / 2
         self._centre_ahead = parameters.length / 2 - parameters.rear_overhang
-        self._surface = surface.drivable_surface(town)
+        self._surface = surface.road_surface(town, shoulder=0.0)
         self._approaches = surface.lane_polygons(town)
         shapely.prepare(self._surface)
         for light in town.lights.values():
