@@ -1,9 +1,8 @@
 """Read an ASAM OpenDRIVE map (.xodr) into a `RoadMap`."""
 
-import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 from lxml import etree
 
@@ -22,9 +21,7 @@ from mjdrive.town.road_map import (
     SignalRecord,
     SignalReference,
 )
-
-# An lxml element; lxml ships no types.
-Element = Any
+from mjdrive.town.xml_fields import Element, XmlFields
 
 _FLAT = 1e-6
 """Largest elevation, slope and superelevation that still count as flat [m, -, rad]."""
@@ -77,41 +74,8 @@ def parse(data: bytes, *, source: str) -> RoadMap:
     return _Reader(source).road_map(root)
 
 
-class _Reader:
-    """Walks one document and names the source and line of what it cannot read."""
-
-    def __init__(self, source: str) -> None:
-        self.source = source
-
-    def fail(self, element: Element, problem: str) -> NoReturn:
-        road = next(
-            (f", road '{e.get('id')}'" for e in element.iterancestors("road")),
-            f", road '{element.get('id')}'" if element.tag == "road" else "",
-        )
-        raise TownFormatError(
-            f"{self.source}:{element.sourceline}{road}: <{element.tag}> {problem}"
-        )
-
-    def text(self, element: Element, name: str) -> str:
-        value = element.get(name)
-        if value is None:
-            self.fail(element, f"has no attribute '{name}'.")
-        return str(value)
-
-    def number(self, element: Element, name: str) -> float:
-        try:
-            value = float(self.text(element, name))
-        except ValueError:
-            self.fail(element, f"has {name}='{element.get(name)}'; expected a number.")
-        if not math.isfinite(value):
-            self.fail(element, f"has {name}='{element.get(name)}'; expected a finite number.")
-        return value
-
-    def integer(self, element: Element, name: str) -> int:
-        try:
-            return int(self.text(element, name))
-        except ValueError:
-            self.fail(element, f"has {name}='{element.get(name)}'; expected a whole number.")
+class _Reader(XmlFields):
+    """Walks one map."""
 
     def road_map(self, root: Element) -> RoadMap:
         header = root.find("header")
@@ -162,12 +126,6 @@ class _Reader:
                 for e in element.iterfind("signals/signalReference")
             ),
         )
-
-    def some(self, element: Element, path: str) -> list[Element]:
-        found = list(element.iterfind(path))
-        if not found:
-            self.fail(element, f"has no {path}.")
-        return found
 
     def refuse_slopes(self, road: Element) -> None:
         for path in ("elevationProfile/elevation", "lateralProfile/superelevation"):

@@ -3,8 +3,8 @@
 from lxml import etree
 
 from mjdrive.town.lane_geometry import lane_centre
-from mjdrive.town.opendrive import Element
 from mjdrive.town.road_map import Cubic, Junction, LaneRecord, Road, RoadLink, RoadMap, SignalRecord
+from mjdrive.town.xml_fields import Element
 
 _SIDES = ("left", "center", "right")
 

@@ -1,12 +1,13 @@
 """Routes along the lanes of a town."""
 
-import heapq
+from collections.abc import Sequence
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float
 
-from mjdrive.datatypes import Lane, Route, Town
+from mjdrive.datatypes import Route, Town
 from mjdrive.errors import RouteError, UnknownNameError
 from mjdrive.geometry import (
     Projection,
@@ -17,6 +18,7 @@ from mjdrive.geometry import (
     stations,
     wrap_angle,
 )
+from mjdrive.town.lane_graph import LaneGraph, Place, lane_length
 
 POINT_SPACING = 1.0
 """Distance between the points of a route [m]."""
@@ -26,11 +28,6 @@ _METRES_PER_RADIAN = 1.0
 
 _CLEAR_BEFORE_JUNCTION = 15.0
 """Least distance from a random start to the end of its lane [m]."""
-
-
-def lane_length(lane: Lane) -> float:
-    """Length of a lane along its centre line [m]."""
-    return float(stations(lane.centerline)[-1])
 
 
 def nearest_lane(
@@ -89,29 +86,20 @@ def route_through(town: Town, waypoints: Float[np.ndarray, "K 2"]) -> Route:
     if len(waypoints) < 2:
         raise RouteError(f"A route has {len(waypoints)} waypoints; expected two or more.")
     places = [_places(town, index, waypoint) for index, waypoint in enumerate(waypoints)]
-    lengths = {name: lane_length(lane) for name, lane in town.lanes.items()}
-    trees: dict[str, dict[str, tuple[float, str]]] = {}
-    # Dynamic programming: the best way to each place of a waypoint extends the best way to a place before it.
-    ways = {place: (off, [place[0]]) for place, off in places[0].items()}
-    starts = {place: place for place in ways}
+    graph = LaneGraph(town)
+    # Dynamic programming: the best way to a place of a waypoint extends the best way to some place before it.
+    ways = [_Way(off, place, place, (place.lane,)) for place, off in places[0]]
     for index, current in enumerate(places[1:], start=1):
-        following, following_starts = {}, {}
-        for place, off in current.items():
-            for before, (cost, chain) in ways.items():
-                leg = _leg(town, lengths, trees, before, place)
-                if leg is not None and (
-                    place not in following or cost + off + leg[0] < following[place][0]
-                ):
-                    following[place] = (cost + off + leg[0], chain + leg[1])
-                    following_starts[place] = starts[before]
-        if not following:
+        ways = [
+            way for place, off in current if (way := _best_way(graph, ways, place, off)) is not None
+        ]
+        if not ways:
             raise RouteError(
                 f"Waypoint {index} {_text(waypoints[index])} cannot be reached from waypoint {index - 1} "
                 f"{_text(waypoints[index - 1])} along the lanes. Check the side of the road that it lies on."
             )
-        ways, starts = following, following_starts
-    end = min(ways, key=lambda place: ways[place][0])
-    return _route(town, ways[end][1], start=starts[end][1], end=end[1])
+    best = min(ways, key=lambda way: way.cost)
+    return _route(town, best.lanes, start=best.start.station, end=best.end.station)
 
 
 def random_route(
@@ -181,16 +169,33 @@ def random_start(town: Town, rng: np.random.Generator) -> tuple[str, float]:
     return names[index], float(draw - (ends[index] - room[names[index]]))
 
 
-def _places(
-    town: Town, index: int, waypoint: Float[np.ndarray, "2"]
-) -> dict[tuple[str, float], float]:
-    """Find the lanes that a waypoint lies on: (name, station) and distance from the centre line."""
-    found = {}
+class _Way(NamedTuple):
+    """A way through the first waypoints: its cost [m], both ends, and the lanes."""
+
+    cost: float
+    start: Place
+    end: Place
+    lanes: tuple[str, ...]
+
+
+def _best_way(graph: LaneGraph, ways: list[_Way], place: Place, off: float) -> _Way | None:
+    """Extend the ways found so far to a place that is `off` metres from its waypoint; keep the cheapest."""
+    extended = [
+        _Way(way.cost + off + leg.length, way.start, place, way.lanes + leg.entered)
+        for way in ways
+        if (leg := graph.leg(way.end, place)) is not None
+    ]
+    return min(extended, key=lambda way: way.cost, default=None)
+
+
+def _places(town: Town, index: int, waypoint: Float[np.ndarray, "2"]) -> list[tuple[Place, float]]:
+    """Find the places on lanes that a waypoint lies on, and its distances from the centre lines [m]."""
+    found = []
     for name, lane in town.lanes.items():
         if np.min(np.hypot(*(lane.centerline - waypoint).T)) <= lane.width:
             projection = project(lane.centerline, waypoint)
             if abs(projection.offset) <= lane.width / 2:
-                found[name, projection.station] = abs(projection.offset)
+                found.append((Place(name, projection.station), abs(projection.offset)))
     if not found:
         name, projection = nearest_lane(town, waypoint)
         raise RouteError(
@@ -204,45 +209,7 @@ def _text(point: Float[np.ndarray, "2"]) -> str:
     return f"({point[0]:.1f}, {point[1]:.1f})"
 
 
-def _leg(
-    town: Town,
-    lengths: dict[str, float],
-    trees: dict[str, dict[str, tuple[float, str]]],
-    start: tuple[str, float],
-    end: tuple[str, float],
-) -> tuple[float, list[str]] | None:
-    """Join two places: the distance and the lanes entered on the way, or None without a way."""
-    if start[0] == end[0] and end[1] >= start[1]:
-        return end[1] - start[1], []
-    if start[0] not in trees:
-        trees[start[0]] = _shortest_paths(town, lengths, start[0])
-    tree = trees[start[0]]
-    if end[0] not in tree:
-        return None
-    chain = [end[0]]
-    while (before := tree[chain[-1]][1]) != start[0]:
-        chain.append(before)
-    return lengths[start[0]] - start[1] + tree[end[0]][0] + end[1], chain[::-1]
-
-
-def _shortest_paths(
-    town: Town, lengths: dict[str, float], start: str
-) -> dict[str, tuple[float, str]]:
-    """Dijkstra from the end of a lane: distance to the start of each lane, and the lane before it."""
-    tree: dict[str, tuple[float, str]] = {}
-    queue = [(0.0, name, start) for name in town.lanes[start].successors]
-    heapq.heapify(queue)
-    while queue:
-        distance, name, before = heapq.heappop(queue)
-        if name in tree:
-            continue
-        tree[name] = (distance, before)
-        for following in town.lanes[name].successors:
-            heapq.heappush(queue, (distance + lengths[name], following, name))
-    return tree
-
-
-def _route(town: Town, chain: list[str], *, start: float, end: float) -> Route:
+def _route(town: Town, chain: Sequence[str], *, start: float, end: float) -> Route:
     """Lay points along a chain of lanes, from a station on the first to a station on the last."""
     lines = [town.lanes[name].centerline for name in chain]
     ends = np.cumsum([stations(line)[-1] for line in lines])

@@ -1,0 +1,85 @@
+"""Shortest ways along the lanes of a town."""
+
+import heapq
+from typing import NamedTuple
+
+from mjdrive.datatypes import Lane, Town
+from mjdrive.geometry import stations
+
+
+class Place(NamedTuple):
+    """A point on the centre line of a lane.
+
+    Attributes:
+        lane: Name of the lane.
+        station: Arc length from its start [m].
+    """
+
+    lane: str
+    station: float
+
+
+class Leg(NamedTuple):
+    """The shortest way from one place to another.
+
+    Attributes:
+        length: Distance along the lanes [m].
+        entered: Names of the lanes that are entered on the way, the last one included.
+    """
+
+    length: float
+    entered: tuple[str, ...]
+
+
+def lane_length(lane: Lane) -> float:
+    """Length of a lane along its centre line [m]."""
+    return float(stations(lane.centerline)[-1])
+
+
+class LaneGraph:
+    """The lanes of a town as a directed graph; remembers the shortest paths that it has found.
+
+    Args:
+        town: The town.
+    """
+
+    def __init__(self, town: Town) -> None:
+        self._town = town
+        self._lengths = {name: lane_length(lane) for name, lane in town.lanes.items()}
+        self._trees: dict[str, dict[str, tuple[float, str]]] = {}
+
+    def leg(self, start: Place, end: Place) -> Leg | None:
+        """Find the shortest way between two places.
+
+        Args:
+            start: Where it begins.
+            end: Where it ends.
+
+        Returns:
+            The way, or None if the lanes do not lead there.
+        """
+        if start.lane == end.lane and end.station >= start.station:
+            return Leg(end.station - start.station, ())
+        if start.lane not in self._trees:
+            self._trees[start.lane] = self._shortest_paths(start.lane)
+        tree = self._trees[start.lane]
+        if end.lane not in tree:
+            return None
+        entered = [end.lane]
+        while (before := tree[entered[-1]][1]) != start.lane:
+            entered.append(before)
+        length = self._lengths[start.lane] - start.station + tree[end.lane][0] + end.station
+        return Leg(length, tuple(reversed(entered)))
+
+    def _shortest_paths(self, start: str) -> dict[str, tuple[float, str]]:
+        """Dijkstra from the end of a lane: distance to the start of each lane [m], and the lane before it."""
+        tree: dict[str, tuple[float, str]] = {}
+        queue = [(0.0, name, start) for name in self._town.lanes[start].successors]
+        heapq.heapify(queue)
+        while queue:
+            distance, name, before = heapq.heappop(queue)
+            if name not in tree:
+                tree[name] = (distance, before)
+                for following in self._town.lanes[name].successors:
+                    heapq.heappush(queue, (distance + self._lengths[name], following, name))
+        return tree
