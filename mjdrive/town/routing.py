@@ -1,6 +1,7 @@
 """Routes along the lanes of a town."""
 
 from collections.abc import Sequence
+from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -43,18 +44,15 @@ def nearest_lane(
     Returns:
         Name of the lane, and the point projected onto its centre line.
     """
-    reach = {
-        name: float(np.min(np.hypot(*(lane.centerline - point).T)))
-        for name, lane in town.lanes.items()
-    }
+    points, starts = _vertices(town)
+    reach = np.sqrt(np.minimum.reduceat(np.sum((points - point) ** 2, axis=1), starts))
     # Points of a centre line are at most half a metre apart, so no other lane can be nearer; with a heading,
     # lanes that lie further off compete too.
     margin = 0.5 + (0.0 if yaw is None else np.pi * _METRES_PER_RADIAN)
-    closest = min(reach.values())
+    names = list(town.lanes)
+    near = [names[index] for index in np.flatnonzero(reach <= reach.min() + margin)]
     best: tuple[float, str, Projection] | None = None
-    for name, distance in reach.items():
-        if distance > closest + margin:
-            continue
+    for name in near:
         projection = project(town.lanes[name].centerline, point)
         cost = abs(projection.offset)
         if yaw is not None:
@@ -68,6 +66,13 @@ def nearest_lane(
             best = (cost, name, projection)
     assert best is not None
     return best[1], best[2]
+
+
+@lru_cache(maxsize=4)
+def _vertices(town: Town) -> tuple[Float[np.ndarray, "N 2"], np.ndarray]:
+    """Stack the centre lines of all lanes [m]; the second array tells where each lane begins."""
+    lines = [lane.centerline for lane in town.lanes.values()]
+    return np.concatenate(lines), np.cumsum([0, *(len(line) for line in lines[:-1])])
 
 
 def route_through(town: Town, waypoints: Float[np.ndarray, "K 2"]) -> Route:

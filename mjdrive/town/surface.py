@@ -14,6 +14,9 @@ _SMALLEST_BLOCK = 300.0
 _NARROWEST_NOTCH = 1.0
 """Kerbs do not follow notches narrower than this [m]."""
 
+_KERB_TOLERANCE = 0.01
+"""How far a straight kerb may lie from a curved edge: fewer, longer kerbs [m]."""
+
 
 def lane_polygons(town: Town) -> dict[str, Polygon]:
     """Outline each lane.
@@ -61,7 +64,7 @@ def road_surface(town: Town, shoulder: float = 0.3) -> Polygon | MultiPolygon:
         driving_surface(town).buffer(shoulder + _NARROWEST_NOTCH / 2).buffer(-_NARROWEST_NOTCH / 2)
     )
     parts = [_fill_small_holes(part) for part in shapely.get_parts(wide)]
-    return shapely.union_all(parts)
+    return shapely.union_all(parts).simplify(_KERB_TOLERANCE)
 
 
 def _fill_small_holes(polygon: Polygon) -> Polygon:
