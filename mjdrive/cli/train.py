@@ -75,8 +75,8 @@ def train(
     from mjdrive.learning.training import train as train_policy  # torch takes a second
 
     with progress_bars() as bars:
-        drawing = bars.add_task("draw views", total=None, unit="views")
-        fitting = bars.add_task("train", total=None)
+        drawing = bars.add_task("draw views", total=None, unit="views", visible=False)
+        fitting = bars.add_task("train", total=None, visible=False)
 
         def on_step(report: "StepReport") -> None:
             text = f"train, loss {report.loss:.3f}"
@@ -89,7 +89,9 @@ def train(
             seed=seed,
             resume=resume,
             overwrite=overwrite,
-            on_frame=lambda done, total: bars.update(drawing, completed=done, total=total),
+            on_frame=lambda done, total: bars.update(
+                drawing, completed=done, total=total, visible=True
+            ),
             on_step=on_step,
         )
     closing_table(

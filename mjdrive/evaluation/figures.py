@@ -50,11 +50,11 @@ def draw_trajectory(episode: Episode, town: Town, path: Path) -> None:
     """
     with matplotlib.style.context(["default", STYLE]):
         width, height = _extent(town)
-        figure = Figure(figsize=(7.5, 7.5 * height / width + 1.0), layout="constrained")
+        figure = Figure(figsize=(7.5, 6.2 * height / width + 0.9), layout="constrained")
         axes = figure.add_subplot()
         _draw_town(axes, town)
         line = _draw_path(axes, episode, line_width=2.2)
-        _draw_start(axes, episode)
+        _draw_ends(axes, episode)
         _draw_infractions(axes, episode)
         axes.set(xlabel="x, east [m]", ylabel="y, north [m]", title=_title(episode, town))
         figure.colorbar(line, ax=axes, label="time [s]", shrink=0.7, pad=0.02)
@@ -88,9 +88,12 @@ def draw_actions(episode: Episode, town: Town, path: Path) -> None:
             axes.axhline(0.0, color="0.7", linewidth=0.6)
             axes.plot(episode.time, curve, color="#0550ae", linewidth=0.9)
             axes.set(ylabel=label, ylim=limits)
+            axes.margins(x=0.01)
             for infraction in episode.infractions:
                 axes.axvline(infraction.time, color=SYMBOLS[infraction.kind][2], linewidth=0.9)
         rows[-1].set_xlabel("time [s]")
+        if waits.any():
+            rows[0].legend(loc="upper right", fontsize=7, framealpha=0.9)
         rows[0].set_title(_title(episode, town))
         figure.align_ylabels(rows)
         _save(figure, path)
@@ -118,7 +121,7 @@ def draw_dataset(episodes: Mapping[str, Episode], town: Town, path: Path) -> Non
         for axes, (name, episode) in zip(grid.flat, episodes.items(), strict=False):
             _draw_town(axes, town)
             _draw_path(axes, episode, line_width=1.4)
-            _draw_start(axes, episode)
+            _draw_ends(axes, episode)
             _draw_infractions(axes, episode)
             axes.set_title(f"{name}: {metrics.distance_on_lanes(episode):,.0f} m", fontsize=8)
         _save(figure, path)
@@ -168,15 +171,15 @@ def _draw_path(axes: Axes, episode: Episode, *, line_width: float) -> LineCollec
     return line
 
 
-def _draw_start(axes: Axes, episode: Episode) -> None:
-    """Mark where the drive began and which way the car looked."""
+def _draw_ends(axes: Axes, episode: Episode) -> None:
+    """Mark where the drive began, which way the car looked, and where it ended."""
     if not len(episode.time):
         return
     x, y, yaw = episode.vehicle[0, :3]
-    axes.plot(x, y, "o", color="white", markeredgecolor="black", label="start", zorder=3)
-    axes.plot(
-        [x], [y], marker=(3, 0, math.degrees(yaw) - 90.0), color="black", markersize=4, zorder=3
-    )
+    axes.plot(x, y, "o", color="white", mec="black", linestyle="", label="start", zorder=3)
+    axes.plot(x, y, marker=(3, 0, math.degrees(yaw) - 90.0), color="black", ms=4, zorder=3)
+    x, y = episode.vehicle[-1, :2]
+    axes.plot(x, y, "s", color="black", markersize=4, linestyle="", label="end", zorder=3)
 
 
 def _draw_infractions(axes: Axes, episode: Episode) -> None:
@@ -194,8 +197,11 @@ def _draw_infractions(axes: Axes, episode: Episode) -> None:
 def _shade(axes: Axes, episode: Episode, waits: Bool[np.ndarray, " T"]) -> None:
     """Shade the times in which the car waits at a light."""
     edges = np.flatnonzero(np.diff(waits, prepend=False, append=False))
+    label = "waits at a red or yellow light"
     for first, last in zip(edges[::2], edges[1::2], strict=True):
-        axes.axvspan(episode.time[first], episode.time[last - 1], color="#ffebe9", linewidth=0)
+        start, end = episode.time[first], episode.time[last - 1]
+        axes.axvspan(start, end, color="#ffebe9", linewidth=0, label=label)
+        label = "_nolegend_"
 
 
 def _title(episode: Episode, town: Town) -> str:
