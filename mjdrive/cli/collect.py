@@ -48,11 +48,13 @@ def collect(
     An interrupted collection can be run again and goes on.
     """
     import numpy as np
+    from rich.progress import TaskID
 
     from mjdrive import config
     from mjdrive.cli.console import closing_table, progress_bars
     from mjdrive.episodes import dataset
     from mjdrive.episodes.demonstrations import collect as collect_routes
+    from mjdrive.evaluation.figures import draw_dataset
     from mjdrive.town import library
     from mjdrive.town.routing import route_through
 
@@ -66,14 +68,21 @@ def collect(
     if overwrite:
         dataset.remove(folder)
     with progress_bars() as bars:
-        tasks = {}
+        num_planned = len(settings.routes or routes) * settings.repeats
+        whole = bars.add_task(town.name, total=num_planned, unit="episodes")
+        tasks: dict[str, TaskID] = {}
 
         def report(name: str, done: int, expected: int) -> None:
             if name not in tasks:
                 tasks[name] = bars.add_task(name)
             bars.update(tasks[name], completed=done, total=expected)
+            if done == expected:
+                bars.advance(whole)
 
-        manifest = collect_routes(town, routes, folder, settings=settings, seed=seed, report=report)
+        collect_routes(town, routes, folder, settings=settings, seed=seed, report=report)
+    manifest, episodes = dataset.read_dataset(folder)
+    names = [entry.name for entry in manifest.episodes]
+    draw_dataset(dict(zip(names, episodes, strict=True)), town, folder / "overview.png")
     num_steps = sum(entry.steps for entry in manifest.episodes)
     num_infractions = sum(sum(entry.infractions.values()) for entry in manifest.episodes)
     closing_table(
@@ -83,6 +92,7 @@ def collect(
             "episodes": len(manifest.episodes),
             "steps": f"{num_steps:,}",
             "infractions": num_infractions,
+            "picture": folder / "overview.png",
         },
         next_command="mjdrive train da-ibc" + ("" if out is None else f" --data {folder}"),
     )

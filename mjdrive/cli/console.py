@@ -23,9 +23,11 @@ class RateColumn(ProgressColumn):
 
     def render(self, task: Task) -> Text:
         """Show the rate, or nothing before there is one."""
-        rate = task.finished_speed or task.speed
+        if not task.elapsed:
+            return Text("")
         unit = task.fields.get("unit", "steps")
-        return Text("" if rate is None else f"{rate:,.1f} {unit}/s", style="progress.data.speed")
+        rate = task.completed / task.elapsed
+        return Text(f"{rate:,.{0 if rate >= 10 else 2}f} {unit}/s", style="progress.data.speed")
 
 
 def progress_bars() -> Progress:

@@ -13,7 +13,7 @@ from mjdrive.datatypes import Episode, Route, Town
 from mjdrive.episodes import dataset, store
 from mjdrive.episodes.collection import collect_route
 from mjdrive.episodes.dataset import EpisodeEntry, Manifest
-from mjdrive.errors import DataError, UnknownNameError
+from mjdrive.errors import DataError, RouteError, UnknownNameError
 from mjdrive.files import write_atomically
 from mjdrive.simulation.simulation import Simulation
 
@@ -47,8 +47,13 @@ def collect(
 
     Raises:
         DataError: If the folder holds something else.
+        RouteError: If the town has no routes.
         UnknownNameError: If a route is not one of the town's.
     """
+    if not routes:
+        raise RouteError(
+            f"Town '{town.name}' has no routes. Expected routes in its town.json; town01 has ten."
+        )
     names = settings.routes or tuple(routes)
     for name in names:
         if name not in routes:
@@ -120,7 +125,7 @@ def _finished(folder: Path, wanted: Manifest) -> dict[str, EpisodeEntry]:
     other = [name for name in names if getattr(found, name) != getattr(wanted, name)]
     if other:
         raise DataError(
-            f"'{folder}' holds a data set with another {' and '.join(other)}. Expected an empty folder or the same "
+            f"'{folder}' holds a data set that differs in {', '.join(other)}. Expected an empty folder or the same "
             f"collection. Give another folder with --out, or replace it with --overwrite."
         )
     return {entry.name: entry for entry in found.episodes if dataset.is_intact(folder, entry)}

@@ -59,7 +59,7 @@ def draw_trajectory(episode: Episode, town: Town, path: Path) -> None:
         axes.set(xlabel="x, east [m]", ylabel="y, north [m]", title=_title(episode, town))
         figure.colorbar(line, ax=axes, label="time [s]", shrink=0.7, pad=0.02)
         if len(episode.time):
-            figure.legend(loc="outside lower center", ncols=5, frameon=False)
+            figure.legend(loc="outside lower center", ncols=6, frameon=False)
         _save(figure, path)
 
 
@@ -122,7 +122,7 @@ def draw_dataset(episodes: Mapping[str, Episode], town: Town, path: Path) -> Non
             _draw_town(axes, town)
             _draw_path(axes, episode, line_width=1.4)
             _draw_ends(axes, episode)
-            _draw_infractions(axes, episode)
+            _draw_infractions(axes, episode, size=25.0)
             axes.set_title(f"{name}: {metrics.distance_on_lanes(episode):,.0f} m", fontsize=8)
         _save(figure, path)
 
@@ -182,7 +182,7 @@ def _draw_ends(axes: Axes, episode: Episode) -> None:
     axes.plot(x, y, "s", color="black", markersize=4, linestyle="", label="end", zorder=3)
 
 
-def _draw_infractions(axes: Axes, episode: Episode) -> None:
+def _draw_infractions(axes: Axes, episode: Episode, *, size: float = 90.0) -> None:
     """Mark each infraction with the symbol of its kind; the legend counts them."""
     for kind, (label, marker, color) in SYMBOLS.items():
         places = [(it.x, it.y) for it in episode.infractions if it.kind == kind]
@@ -190,7 +190,7 @@ def _draw_infractions(axes: Axes, episode: Episode) -> None:
             x, y = np.array(places).T
             text = f"{label} ({len(places)})"
             axes.scatter(
-                x, y, s=90, marker=marker, color=color, edgecolor="white", label=text, zorder=4
+                x, y, s=size, marker=marker, color=color, edgecolor="white", label=text, zorder=4
             )
 
 
@@ -209,7 +209,7 @@ def _title(episode: Episode, town: Town) -> str:
     summary = metrics.summarise(episode, town)
     return (
         f"{episode.policy} in {episode.town}, seed {episode.seed}: {summary.distance_m:,.0f} m, "
-        f"{summary.red_lights} red lights, {summary.collisions} collisions, {summary.off_road_s:.1f} s off road"
+        f"red lights {summary.red_lights}, collisions {summary.collisions}, off road {summary.off_road_s:.1f} s"
     )
 
 
