@@ -1,0 +1,47 @@
+# `make test` and `make demo` work in a fresh clone; all they need besides make is Python 3.11.
+
+PYTHON ?= python3.11
+VENV := .venv
+BIN := $(VENV)/bin
+NOTEBOOKS := $(wildcard notebooks/*.ipynb)
+DEMO := demo
+
+.PHONY: help install format check test demo clean
+.DEFAULT_GOAL := help
+
+help:  ## Show this list
+	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
+
+install: $(VENV)/installed  ## Set up .venv with the tested versions
+
+# torch first and alone: a version that is there is kept, so nobody gets a second build of it.
+$(VENV)/installed: pyproject.toml constraints.txt
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/pip install --quiet --constraint constraints.txt torch
+	$(BIN)/pip install --quiet --constraint constraints.txt --editable ".[dev]"
+	touch $@
+
+format: install  ## Format and mend what can be mended
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+check: install  ## Lint, types, import contracts and tests: exactly what CI runs
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/typos
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	$(BIN)/pytest --numprocesses auto $(if $(NOTEBOOKS),--nbmake notebooks) tests
+
+test: check  ## The same
+
+demo: install  ## Collect, train and drive small, in the folder demo/
+	mkdir -p $(DEMO)
+	cd $(DEMO) && ../$(BIN)/mjdrive collect --town town01 --preset quick
+	cd $(DEMO) && ../$(BIN)/mjdrive train da-ibc --preset quick --overwrite
+	cd $(DEMO) && ../$(BIN)/mjdrive drive --town town02
+	@echo "Pictures:"
+	@ls -d $(CURDIR)/$(DEMO)/data/town01/*.png $(CURDIR)/$(DEMO)/drives/*/*.png
+
+clean:  ## Remove .venv and demo/
+	rm -rf $(VENV) $(DEMO)
