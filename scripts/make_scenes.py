@@ -1,0 +1,59 @@
+"""Write scene.xml and scene.png of every town from its map and town.json.
+
+python scripts/make_scenes.py              # all towns, no pictures
+python scripts/make_scenes.py --pictures   # needs OpenGL
+"""
+
+import argparse
+
+import cv2
+import mujoco
+import numpy as np
+
+from mjdrive import geometry
+from mjdrive.config import SimulationConfig
+from mjdrive.datatypes import Signal, Town
+from mjdrive.simulation.cameras import Cameras, overview
+from mjdrive.simulation.lamps import set_lamps
+from mjdrive.simulation.scene import build_scene, scene_xml
+from mjdrive.town import library
+from mjdrive.vehicle.car import Car
+
+CAR_BEFORE_STOP_LINE = 14.0  # rear axle [m]
+
+
+def main() -> None:
+    """Write the files of every town."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+    )
+    parser.add_argument("--pictures", action="store_true", help="draw scene.png too")
+    arguments = parser.parse_args()
+    for name in library.town_names():
+        town, settings = library.load(name), library.load_settings(name)
+        spec = build_scene(town, settings, timestep=SimulationConfig().timestep)
+        path = library.folder_of(name) / "scene.xml"
+        path.write_text(scene_xml(spec))
+        print(f"{path}: {path.stat().st_size / 1e3:.0f} kB")
+        if arguments.pictures:
+            picture = draw(town, spec.compile())
+            cv2.imwrite(str(path.with_name("scene.png")), cv2.cvtColor(picture, cv2.COLOR_RGB2BGR))
+
+
+def draw(town: Town, model: mujoco.MjModel) -> np.ndarray:
+    """Draw the whole town beside the car at a light."""
+    data = mujoco.MjData(model)
+    car = Car(model, data)
+    lane = town.lanes[next(iter(town.lights.values())).lane]
+    points = geometry.resample(lane.centerline, 1.0)
+    index = max(int(len(points) - CAR_BEFORE_STOP_LINE), 0)
+    x, y = points[index].tolist()
+    car.place(x, y, float(geometry.headings(points)[index]))
+    set_lamps(model, town, {name: Signal(i % 3) for i, name in enumerate(town.lights)})
+    with Cameras(model, width=480, height=360) as cameras:
+        views = (overview(town), "chase")
+        return np.hstack([cameras.render(data, view) for view in views])
+
+
+if __name__ == "__main__":
+    main()
