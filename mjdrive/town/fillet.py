@@ -78,7 +78,7 @@ def join(start: Pose, end: Pose, *, radius: float | None, what: str) -> tuple[Pi
 
 def length_of(pieces: tuple[Piece, ...]) -> float:
     """Length of a reference line [m]."""
-    return round(sum(piece.length for piece in pieces), 9)
+    return round(sum((piece.length for piece in pieces), 0.0), 9)
 
 
 def extend(pieces: tuple[Piece, ...], run: tuple[Piece, ...]) -> tuple[Piece, ...]:

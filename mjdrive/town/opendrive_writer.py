@@ -35,7 +35,7 @@ def write(road_map: RoadMap) -> bytes:
     return document + b"\n"
 
 
-def _add(parent: Element, tag: str, **attributes: str | float) -> Element:
+def _add(parent: Element, tag: str, **attributes: str | int | float) -> Element:
     texts = {
         name: value if isinstance(value, str) else repr(value) for name, value in attributes.items()
     }

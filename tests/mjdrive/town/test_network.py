@@ -1,0 +1,177 @@
+import re
+from collections import Counter
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mjdrive.datatypes import Move, Signal, Town
+from mjdrive.errors import TownFormatError
+from mjdrive.geometry import headings, stations, wrap_angle
+from mjdrive.town import library, opendrive
+from mjdrive.town.network import build_town
+from mjdrive.town.road_map import Piece, RoadMap, SignalReference
+from mjdrive.town.settings import LightTiming
+
+TOWNS = library.town_names()
+
+
+def _build(road_map: RoadMap) -> Town:
+    return build_town(road_map, name="test", timing=LightTiming(), digest="")
+
+
+def _parse(map_bytes: bytes, old: bytes, new: bytes) -> Town:
+    changed = re.sub(old, new, map_bytes, count=1)
+    assert changed != map_bytes
+    return _build(opendrive.parse(changed, source="test"))
+
+
+@pytest.mark.parametrize("name", TOWNS)
+def test_lanes_meet_their_successors_without_gap_or_kink(name: str) -> None:
+    town = library.load(name)
+    for lane in town.lanes.values():
+        assert lane.successors, f"{lane.id} is a dead end"
+        for successor in lane.successors:
+            following = town.lanes[successor].centerline
+            assert np.hypot(*(following[0] - lane.centerline[-1])) < 1e-6
+            turn = wrap_angle(float(headings(following)[0] - headings(lane.centerline)[-1]))
+            # Both are directions of chords: half a chord turns by up to 0.1 m over the radius.
+            assert abs(turn) < 0.06
+
+
+@pytest.mark.parametrize("name", TOWNS)
+def test_centre_lines_are_dense(name: str) -> None:
+    for lane in library.load(name).lanes.values():
+        steps = np.diff(stations(lane.centerline))
+        assert steps.min() > 0.0
+        assert steps.max() <= 0.5 + 1e-9
+
+
+@pytest.mark.parametrize("name", TOWNS)
+def test_each_junction_offers_six_moves_and_each_approach_two(name: str) -> None:
+    town = library.load(name)
+    junctions = {lane.junction for lane in town.lanes.values()} - {None}
+    for junction in junctions:
+        moves = Counter(lane.move for lane in town.lanes.values() if lane.junction == junction)
+        assert moves == {Move.LEFT: 2, Move.STRAIGHT: 2, Move.RIGHT: 2}
+    for light in town.lights.values():
+        exits = [town.lanes[successor] for successor in town.lanes[light.lane].successors]
+        assert {lane.junction for lane in exits} == {light.junction}
+        assert len({lane.move for lane in exits}) == 2
+
+
+@pytest.mark.parametrize("name", TOWNS)
+def test_each_lane_into_a_junction_has_its_own_light(name: str) -> None:
+    town = library.load(name)
+    approaches = {
+        lane.id
+        for lane in town.lanes.values()
+        if any(town.lanes[successor].junction for successor in lane.successors)
+    }
+    assert {light.lane for light in town.lights.values()} == approaches
+    for light in town.lights.values():
+        assert town.lanes[light.lane].light == light.id
+    assert sum(lane.light is not None for lane in town.lanes.values()) == len(town.lights)
+
+
+@pytest.mark.parametrize("name", TOWNS)
+def test_stop_lines_cross_the_whole_lane_at_its_end(name: str) -> None:
+    town = library.load(name)
+    for light in town.lights.values():
+        lane = town.lanes[light.lane]
+        np.testing.assert_allclose(light.stop_line.mean(axis=0), lane.centerline[-1], atol=1e-9)
+        across = light.stop_line[1] - light.stop_line[0]
+        assert np.hypot(*across) == pytest.approx(lane.width)
+        along = np.array([np.cos(light.yaw), np.sin(light.yaw)])
+        assert along @ across == pytest.approx(0.0, abs=1e-9)
+        assert along[0] * across[1] - along[1] * across[0] < 0.0, "expected left, then right"
+        pole = light.pole - lane.centerline[-1]
+        assert 2.2 < -(along[0] * pole[1] - along[1] * pole[0]) < 3.1, (
+            "expected the pole right of the lane"
+        )
+
+
+def test_bounds_hold_every_lane_with_its_width(ladder: Town) -> None:
+    np.testing.assert_allclose(ladder.bounds, [-4.0, -4.0, 124.0, 84.0], atol=1e-6)
+
+
+def test_traffic_keeps_to_the_right(ladder: Town) -> None:
+    np.testing.assert_allclose(
+        ladder.lanes["1/0/-1"].centerline[[0, -1]], [[10.0, -2.0], [48.0, -2.0]], atol=1e-9
+    )
+    np.testing.assert_allclose(
+        ladder.lanes["1/0/1"].centerline[[0, -1]], [[48.0, 2.0], [10.0, 2.0]], atol=1e-9
+    )
+
+
+def test_the_program_of_a_light_fills_its_cycle(ladder: Town) -> None:
+    light = next(iter(ladder.lights.values()))
+    assert light.program == ((Signal.GREEN, 10.0), (Signal.YELLOW, 3.0), (Signal.RED, 32.0))
+
+
+def test_lanes_go_on_from_section_to_section(road_map: RoadMap) -> None:
+    road = road_map.roads["3"]
+    first = replace(
+        road.sections[0],
+        lanes=tuple(replace(lane, successor=lane.id) for lane in road.sections[0].lanes),
+    )
+    second = replace(
+        road.sections[0],
+        s=25.0,
+        lanes=tuple(replace(lane, predecessor=lane.id) for lane in road.sections[0].lanes),
+    )
+    whole = _build(road_map)
+    town = _build(
+        replace(road_map, roads={**road_map.roads, "3": replace(road, sections=(first, second))})
+    )
+    assert town.lanes["3/0/-1"].successors == ("3/1/-1",)
+    assert town.lanes["3/1/1"].successors == ("3/0/1",)
+    assert town.lanes["3/1/-1"].successors == whole.lanes["3/0/-1"].successors
+
+
+def test_lights_may_be_named_by_the_lanes_behind_them(road_map: RoadMap) -> None:
+    """CARLA's maps name the connecting lanes, not the approach."""
+    roads = dict(road_map.roads)
+    (signal,) = roads["1"].signals
+    roads["1"] = replace(roads["1"], signals=(replace(signal, from_lane=0, to_lane=0),))
+    for road in road_map.roads.values():
+        if road.junction == "20" and road.predecessor is not None and road.predecessor.id == "1":
+            roads[road.id] = replace(road, references=(SignalReference(signal.id, -1, -1),))
+    assert _build(replace(road_map, roads=roads)).lights[signal.id].lane == "1/0/-1"
+
+
+def test_lanes_that_do_not_meet_are_refused(road_map: RoadMap) -> None:
+    road = road_map.roads["3"]
+    (line,) = road.pieces
+    moved = replace(road, pieces=(Piece(0.0, line.x + 0.02, line.y, line.heading, line.length),))
+    with pytest.raises(
+        TownFormatError,
+        match=r"Lane '3/0/1' ends 0\.020 m from the start of its successor '11/0/1'",
+    ):
+        _build(replace(road_map, roads={**road_map.roads, "3": moved}))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "complaint"),
+    [
+        (
+            rb'elementType="junction" elementId="20"',
+            b'elementType="junction" elementId="99"',
+            "junction '99'",
+        ),
+        (rb'connectingRoad="1000"', b'connectingRoad="9999"', "road '9999'"),
+        (rb'signalId="[^"]*"', b'signalId="nobody"', "signal 'nobody'"),
+        (rb"<validity [^>]*>", b"", r"stops the lanes \[\]; expected exactly one"),
+    ],
+)
+def test_links_that_lead_nowhere_are_refused(
+    map_bytes: bytes, old: bytes, new: bytes, complaint: str
+) -> None:
+    with pytest.raises(TownFormatError, match=complaint):
+        _parse(map_bytes, old, new)
+
+
+def test_a_map_without_driving_lanes_is_refused(map_bytes: bytes) -> None:
+    walkway = opendrive.parse(map_bytes.replace(b'"driving"', b'"sidewalk"'), source="test")
+    with pytest.raises(TownFormatError, match="no driving lane"):
+        _build(walkway)

@@ -1,0 +1,32 @@
+from dataclasses import replace
+
+from lxml import etree
+
+from mjdrive.town import opendrive, opendrive_writer
+from mjdrive.town.road_map import Cubic, RoadMap, SignalReference
+
+
+def test_the_same_map_gives_the_same_bytes(road_map: RoadMap, map_bytes: bytes) -> None:
+    assert opendrive_writer.write(road_map) == map_bytes
+
+
+def test_the_header_bounds_every_lane(map_bytes: bytes) -> None:
+    header = etree.fromstring(map_bytes).find("header").attrib
+    # Sidewalk centres lie 4 + 0.3 + 2 m beside the middle of the outer streets.
+    assert [float(header[side]) for side in ("west", "south", "east", "north")] == [
+        -6.3,
+        -6.3,
+        126.3,
+        86.3,
+    ]
+    assert (header["revMajor"], header["revMinor"]) == ("1", "4")
+
+
+def test_what_the_street_builder_leaves_out_is_written_too(road_map: RoadMap) -> None:
+    road = replace(
+        road_map.roads["1"],
+        references=(SignalReference("712", -1, -1),),
+        lane_offsets=(Cubic(0.0, 0.0), Cubic(5.0, 0.1, 0.2, -0.3, 0.4)),
+    )
+    changed = replace(road_map, roads={**road_map.roads, "1": road})
+    assert opendrive.parse(opendrive_writer.write(changed), source="ladder") == changed
