@@ -40,7 +40,7 @@ def draw(town: Town, axes: Axes) -> None:
             for lane in town.lanes.values()
             if lane.junction == junction
         ]
-        # Beside the junction, on its far side from the middle of town, the name hides no lane.
+        # Beside the crossing, where the name hides no lane.
         axes.annotate(
             junction,
             np.mean(points, axis=0),

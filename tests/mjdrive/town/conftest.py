@@ -1,6 +1,7 @@
 """A small town for tests: a rectangle of streets with one street across."""
 
 import pytest
+from hypothesis import settings
 
 from mjdrive.config import from_dict
 from mjdrive.datatypes import Town
@@ -10,6 +11,10 @@ from mjdrive.town.road_map import RoadMap
 from mjdrive.town.settings import LightTiming
 from mjdrive.town.street_builder import build_map
 from mjdrive.town.street_plan import StreetPlan
+
+# Machines that run other things too are slow now and then; pytest-timeout catches what hangs.
+settings.register_profile("town", deadline=None)
+settings.load_profile("town")
 
 
 def _junction(left: str, right: str, stem: str, *, side: float) -> dict[str, object]:

@@ -14,27 +14,32 @@ from mjdrive.town.network import build_town
 from mjdrive.town.road_map import RoadMap
 from mjdrive.town.settings import LightTiming
 
-# Length [m] and moves of the ten published Town01 routes, driven on CARLA's own map.
+# Length [m] and moves of the published routes, driven on CARLA's own maps.
 PUBLISHED = {
-    "route0": (762, "LLR"),
-    "route1": (565, "SRRR"),
-    "route2": (971, "SS"),
-    "route3": (1071, "RRRLLSSSR"),
-    "route4": (568, "SRRLSL"),
-    "route5": (1188, "LSLRRL"),
-    "route6": (774, "RLLRR"),
-    "route7": (711, "RSS"),
-    "route8": (579, "RSRR"),
-    "route9": (925, "SLRRS"),
+    ("town01", "route0"): (762, "LLR"),
+    ("town01", "route1"): (565, "SRRR"),
+    ("town01", "route2"): (971, "SS"),
+    ("town01", "route3"): (1071, "RRRLLSSSR"),
+    ("town01", "route4"): (568, "SRRLSL"),
+    ("town01", "route5"): (1188, "LSLRRL"),
+    ("town01", "route6"): (774, "RLLRR"),
+    ("town01", "route7"): (711, "RSS"),
+    ("town01", "route8"): (579, "RSRR"),
+    ("town01", "route9"): (925, "SLRRS"),
+    ("town02", "route0"): (1014, "RSLLSRS"),
+    ("town02", "route1"): (1043, "RRRSRSSS"),
+    ("town02", "route2"): (919, "LRSLSLLL"),
+    ("town02", "route3"): (1002, "RSSLSLS"),
+    ("town02", "route4"): (876, "LRLLRRRRLLSR"),
 }
 
 
-@pytest.mark.parametrize("name", PUBLISHED)
-def test_published_routes_have_their_published_length_and_moves(name: str) -> None:
-    town = library.load("town01")
-    waypoints = np.array(library.load_settings("town01").routes[name])
+@pytest.mark.parametrize(("name", "route_name"), PUBLISHED)
+def test_published_routes_have_their_published_length_and_moves(name: str, route_name: str) -> None:
+    town = library.load(name)
+    waypoints = np.array(library.load_settings(name).routes[route_name])
     route = routing.route_through(town, waypoints)
-    length, moves = PUBLISHED[name]
+    length, moves = PUBLISHED[name, route_name]
     assert route.station[-1] == pytest.approx(length, abs=1.5)
     lanes = [town.lanes[lane] for lane in route.lanes]
     assert "".join(lane.move.name[0] for lane in lanes if lane.move != Move.FOLLOW) == moves
@@ -42,8 +47,10 @@ def test_published_routes_have_their_published_length_and_moves(name: str) -> No
         assert np.min(np.hypot(*(route.points - waypoint).T)) < 2.1
 
 
-def test_town01_has_the_ten_published_routes() -> None:
-    assert set(library.load_settings("town01").routes) == set(PUBLISHED)
+@pytest.mark.parametrize("name", ["town01", "town02"])
+def test_towns_have_the_published_routes(name: str) -> None:
+    routes = {(name, route_name) for route_name in library.load_settings(name).routes}
+    assert routes == {pair for pair in PUBLISHED if pair[0] == name}
 
 
 @pytest.fixture(scope="module")
