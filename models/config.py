@@ -141,7 +141,7 @@ class DfoConfig:
         shrink: Factor K on the noise after each resampling [-].
         start: How first candidates are drawn: expert actions by 1 / KDE (the paper's text) or by KDE (its Algorithm 1), or uniform actions.
         choice: Whether the last candidates are sampled from, or the lowest is taken.
-        temper: Whether energies are divided by the iterations, so that resampling again and again does not sharpen.
+        temper: Whether energies are divided by the iterations and noise is accepted by Metropolis, so that resampling again and again does not sharpen.
         bound: Candidates are clipped to [-bound, bound] after noise [-].
     """
 

@@ -4,7 +4,7 @@ Shape letters everywhere in this package: B batch, N candidates or negatives, D 
 """
 
 from abc import ABC, abstractmethod
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import torch
 from jaxtyping import Float, Int, UInt8
@@ -34,6 +34,7 @@ class Batch(NamedTuple):
         return Batch(*(tensor.to(device, non_blocking=True) for tensor in self))
 
 
+@runtime_checkable
 class Demonstrations(Protocol):
     """What the expert did, by index."""
 

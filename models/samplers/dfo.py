@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import torch
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 from torch import Tensor
 
 from models.config import DfoConfig
@@ -70,22 +70,40 @@ def search(
 
     Returns:
         The chosen actions, and the candidates and energies that they were chosen from.
+
+    Reference:
+        Algorithm 1 of the paper; tempered, annealed importance resampling of Del Moral et al., Sequential Monte
+        Carlo Samplers, 2006.
     """
     candidates, sigma = start, config.sigma_init
     # n resamplings with exp(-E) leave about exp(-n E); with exp(-E / n) the product is exp(-E) again.
     temperature = float(config.iterations) if config.temper else 1.0
     energies = energy(candidates)
-    for _ in range(config.iterations - 1):
+    for resampling in range(1, config.iterations):
         probabilities = torch.softmax(-energies / temperature, dim=1)
-        resampled = draw_categorical(probabilities, candidates.shape[1], generator=generator)
-        noise = torch.randn(candidates.shape, generator=generator, device=candidates.device)
-        candidates = pick(candidates, resampled) + sigma * noise
-        candidates = candidates.clamp(-config.bound, config.bound)
+        drawn = draw_categorical(probabilities, candidates.shape[1], generator=generator)
+        kept = pick(candidates, drawn)
+        noise = torch.randn(kept.shape, generator=generator, device=kept.device)
+        candidates = (kept + sigma * noise).clamp(-config.bound, config.bound)
+        energies_kept, energies = energies.gather(1, drawn), energy(candidates)
+        if config.temper:
+            rise = (energies - energies_kept) * resampling / temperature
+            accepted = _metropolis(rise, generator)
+            candidates = torch.where(accepted[..., None], candidates, kept)
+            energies = torch.where(accepted, energies, energies_kept)
         sigma *= config.shrink
-        energies = energy(candidates)
     if config.choice == "argmin":
         chosen = energies.argmin(dim=1, keepdim=True)
     else:
         probabilities = torch.softmax(-energies / temperature, dim=1)
         chosen = draw_categorical(probabilities, 1, generator=generator)
     return DfoResult(pick(candidates, chosen).squeeze(1), candidates, energies)
+
+
+def _metropolis(rise: Float[Tensor, "B N"], generator: torch.Generator) -> Bool[Tensor, "B N"]:
+    """Whether to accept noise that raises the tempered energy by `rise` [nats].
+
+    Without it the noise blurs what earlier resamplings chose, and the shares of two modes drift towards each other.
+    """
+    unit = torch.rand(rise.shape, generator=generator, device=rise.device)
+    return unit < torch.exp(-rise)

@@ -1,0 +1,48 @@
+"""Small demonstrations and settings for the tests of the networks."""
+
+import dataclasses
+from collections.abc import Callable
+
+import pytest
+import torch
+
+from models.config import LearnerConfig, Method
+from models.interfaces import Batch, TensorDemonstrations
+from models.presets import quick
+
+
+def _small_config(method: Method, **optimiser: object) -> LearnerConfig:
+    """Settings that train in a fraction of a second."""
+    config = quick(method)
+    settings = {"epochs": 2, "batch_size": 4, "precision": "float32", **optimiser}
+    return dataclasses.replace(
+        config,
+        negatives=dataclasses.replace(config.negatives, count=8),
+        optimiser=dataclasses.replace(config.optimiser, **settings),
+    )
+
+
+@pytest.fixture(scope="session")
+def batch() -> Batch:
+    """Ten observations of noise, with actions that include the corners."""
+    generator = torch.Generator().manual_seed(0)
+    bev = torch.randint(0, 256, (10, 5, 192, 192), generator=generator, dtype=torch.uint8)
+    state = torch.rand(10, 3, generator=generator)
+    actions = 2 * torch.rand(10, 2, generator=generator) - 1
+    actions[:3] = torch.tensor([[-1.0, 0.0], [1.0, -1.0], [0.0, 1.0]])
+    return Batch(bev, state, actions)
+
+
+@pytest.fixture(scope="session")
+def demonstrations(batch: Batch) -> TensorDemonstrations:
+    return TensorDemonstrations(batch)
+
+
+@pytest.fixture(scope="session")
+def small_config() -> Callable[..., LearnerConfig]:
+    return _small_config
+
+
+@pytest.fixture
+def generator() -> torch.Generator:
+    return torch.Generator().manual_seed(7)

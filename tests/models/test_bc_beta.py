@@ -1,0 +1,118 @@
+import dataclasses
+
+import pytest
+import torch
+from torch import nn
+from torch.distributions import Beta
+
+from models.bc_beta import BcBetaLearner, beta_mode, unit_from_action
+from models.interfaces import Batch
+
+
+class Constant(nn.Module):
+    """Stands in for the encoder: every observation looks alike."""
+
+    feature_size = 256
+
+    def forward(self, bev, state):
+        return torch.ones(len(bev), self.feature_size)
+
+
+@pytest.fixture
+def constant_learner(small_config):
+    def build(**beta):
+        config = small_config("bc-beta")
+        config = dataclasses.replace(config, beta=dataclasses.replace(config.beta, **beta))
+        torch.manual_seed(0)
+        learner = BcBetaLearner(config)
+        learner.encoder = Constant()
+        return learner
+
+    return build
+
+
+def looks_alike(actions):
+    num = len(actions)
+    return Batch(torch.zeros(num, 1, 1, 1, dtype=torch.uint8), torch.zeros(num, 3), actions)
+
+
+def test_training_recovers_known_beta_parameters(constant_learner, generator):
+    alpha, beta = torch.tensor([2.0, 6.0]), torch.tensor([4.0, 3.0])
+    torch.manual_seed(0)
+    batch = looks_alike(2 * Beta(alpha, beta).sample((2000,)) - 1)
+    learner = constant_learner(beta_offset=0)
+    optimiser = torch.optim.Adam(learner.parameters(), lr=0.01)
+    for _ in range(100):
+        optimiser.zero_grad()
+        learner.loss(batch, weights=None, generator=generator).backward()
+        optimiser.step()
+    found = learner.distribution(batch.bev[:1], batch.state[:1])
+    torch.testing.assert_close(found.concentration1[0], alpha, rtol=0.1, atol=0)
+    torch.testing.assert_close(found.concentration0[0], beta, rtol=0.1, atol=0)
+
+
+@pytest.mark.parametrize("label", [-1.0, 0.0, 1.0])
+@pytest.mark.parametrize("beta_offset", [0, 1])
+@pytest.mark.parametrize("label_clamp", [1e-3, 1e-7])
+def test_loss_and_gradient_are_finite_at_the_ends(
+    constant_learner, label, beta_offset, label_clamp, generator
+):
+    learner = constant_learner(beta_offset=beta_offset, label_clamp=label_clamp, entropy_bonus=0.01)
+    batch = looks_alike(torch.full((2, 2), label))
+    loss = learner.loss(batch, weights=None, generator=generator)
+    loss.backward()
+    assert torch.isfinite(loss)
+    assert all(torch.isfinite(p.grad).all() for p in learner.parameters())
+
+
+def test_loss_is_finite_where_softplus_underflows(constant_learner, generator):
+    learner = constant_learner(beta_offset=0)
+    nn.init.constant_(learner.alpha.bias, -1000.0)
+    loss = learner.loss(looks_alike(torch.zeros(2, 2)), weights=None, generator=generator)
+    assert torch.isfinite(loss)
+
+
+def test_weights_multiply_the_losses(constant_learner, generator):
+    learner = constant_learner()
+    batch = looks_alike(torch.tensor([[0.5, 0.1], [-0.8, 0.9]]))
+    single = [
+        learner.loss(Batch(*(x[[i]] for x in batch)), weights=None, generator=generator)
+        for i in range(2)
+    ]
+    weighted = learner.loss(batch, weights=torch.tensor([3.0, 1.0]), generator=generator)
+    torch.testing.assert_close(weighted, (3 * single[0] + single[1]) / 2)
+
+
+def test_the_mode_is_where_the_density_is_highest():
+    alpha, beta = torch.tensor([[3.0, 5.0]]), torch.tensor([[2.0, 9.0]])
+    grid = torch.linspace(0.001, 0.999, 999)[:, None]
+    highest = grid[Beta(alpha, beta).log_prob(grid).argmax(dim=0), 0]
+    torch.testing.assert_close(beta_mode(alpha, beta)[0], highest, rtol=0, atol=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("alpha", "beta", "mode"),
+    [(0.5, 2.0, 0.0), (2.0, 0.5, 1.0), (0.5, 0.25, 2 / 3), (1.0, 1.0, 0.5)],
+)
+def test_the_mode_of_a_peakless_density_is_its_end_or_mean(alpha, beta, mode):
+    found = beta_mode(torch.tensor([[alpha, alpha]]), torch.tensor([[beta, beta]]))
+    torch.testing.assert_close(found, torch.tensor([[mode, mode]]))
+
+
+def test_labels_keep_the_clamp_from_the_ends():
+    labels = torch.tensor([[-1.0, 1.0], [0.0, 0.5]])
+    unit = unit_from_action(labels, label_clamp=0.01)
+    torch.testing.assert_close(unit, torch.tensor([[0.01, 0.99], [0.5, 0.75]]))
+
+
+def test_samples_repeat_with_the_generator_and_have_the_mean_of_the_distribution(constant_learner):
+    learner = constant_learner(inference="sample")
+    batch = looks_alike(torch.zeros(500, 2))
+    draws = [
+        learner.act(batch.bev, batch.state, generator=torch.Generator().manual_seed(seed))
+        for seed in (1, 1, 2)
+    ]
+    assert torch.equal(draws[0], draws[1])
+    assert not torch.equal(draws[0], draws[2])
+    mean = 2 * learner.distribution(batch.bev[:1], batch.state[:1]).mean[0] - 1
+    torch.testing.assert_close(draws[0].mean(dim=0), mean, rtol=0, atol=0.1)
