@@ -1,5 +1,7 @@
 """Drives the car of a compiled scene: commands in, state out, and the forces that MJCF cannot say."""
 
+import math
+
 import mujoco
 import numpy as np
 from jaxtyping import Float
@@ -42,9 +44,9 @@ class Car:
         self._spin_qpos = np.array([model.joint(f"spin_{wheel}").qposadr[0] for wheel in WHEELS])
         self._lock = np.array([model.equality(f"lock_{wheel}").id for wheel in WHEELS])
         self._rack_qpos = model.joint("steer").qposadr[0]
-        self._throttle = model.actuator("throttle")
-        self._brake = model.actuator("brake")
-        self._steering = model.actuator("steering")
+        self._throttle_act = model.actuator("throttle").actadr[0]
+        self._brake_act = model.actuator("brake").actadr[0]
+        self._ctrl = [model.actuator(name).id for name in ("throttle", "brake", "steering")]
         front = parameters.brake_front_share
         self._brake_torque = 0.5 * parameters.brake_torque * np.repeat([front, 1.0 - front], 2)
         self._tyre_speeds = np.zeros(4)
@@ -78,28 +80,25 @@ class Car:
         Args:
             action: Positive acceleration is throttle, negative is brake; positive steering turns left.
         """
-        acceleration = np.clip(action.acceleration, -1.0, 1.0)
-        self._data.ctrl[self._throttle.id] = max(acceleration, 0.0)
-        self._data.ctrl[self._brake.id] = max(-acceleration, 0.0)
-        self._data.ctrl[self._steering.id] = np.clip(action.steering, -1.0, 1.0)
+        acceleration, steering = np.clip([action.acceleration, action.steering], -1.0, 1.0)
+        self._data.ctrl[self._ctrl] = max(acceleration, 0.0), max(-acceleration, 0.0), steering
 
     def update(self) -> None:
         """Renew brakes, air drag, tyres and standstill hold from the state; call it some fifty times a second."""
         data = self._data
-        travel = float(np.hypot(data.qvel[0], data.qvel[1]))
+        velocity = data.qvel[:2]
+        travel = math.hypot(*velocity)
         rolling = np.abs(data.qvel[self._spin_dof])
-        brake = float(data.act[self._brake.actadr[0]])
+        brake = float(data.act[self._brake_act])
         drag = -0.5 * AIR_DENSITY * self.parameters.drag_area * travel
-        data.xfrc_applied[self._body, :2] = drag * data.qvel[:2]
+        data.xfrc_applied[self._body, :2] = drag * velocity
         self._apply(np.maximum(travel, rolling * self.parameters.wheel_radius), brake)
         self._hold(travel + float(rolling.max()), brake)
 
     def state(self) -> VehicleState:
         """Read where the car is and how it moves, at the rear axle."""
         qpos, qvel = self._data.qpos, self._data.qvel
-        rotation = np.empty(9)
-        mujoco.mju_quat2Mat(rotation, qpos[3:7])
-        world_from_car = rotation.reshape(3, 3)
+        world_from_car = self._world_from_car()
         yaw = float(np.arctan2(world_from_car[1, 0], world_from_car[0, 0]))
         return VehicleState(
             x=float(qpos[0]),
@@ -160,6 +159,12 @@ class Car:
         front, side = self.parameters.wheelbase, 0.5 * self.parameters.track
         return self._to_world([[front, side], [front, -side], [0.0, side], [0.0, -side]])
 
+    def _world_from_car(self) -> Float[np.ndarray, "3 3"]:
+        """Rotation of the body, from the state itself: derived quantities of MuJoCo lag by a step."""
+        rotation = np.empty(9)
+        mujoco.mju_quat2Mat(rotation, self._data.qpos[3:7])
+        return rotation.reshape(3, 3)
+
     def _to_world(self, points: list[list[float]]) -> Float[np.ndarray, "N 2"]:
         state = self.state()
         return world_from_vehicle(np.array(points), x=state.x, y=state.y, yaw=state.yaw)
@@ -174,19 +179,24 @@ class Car:
 
     def _hold(self, motion: float, brake: float) -> None:
         """Lock the wheels of a stopped car while its brake can carry it, and free them when it cannot."""
-        data, model, parameters = self._data, self._model, self.parameters
-        throttle = float(data.act[self._throttle.actadr[0]])
-        downhill = abs(float(data.xmat[self._body].reshape(3, 3)[:, 0] @ model.opt.gravity))
-        needed = (
-            throttle * parameters.drive_torque
-            + parameters.mass * downhill * parameters.wheel_radius
-            + HOLD_RESERVE
-        )
-        strong_enough = brake * parameters.brake_torque > needed
+        if not self._holding and motion >= STANDSTILL_SPEED:
+            return
+        strong_enough = brake * self.parameters.brake_torque > self._torque_to_hold()
         if self._holding and not strong_enough:
             self._holding = False
-            data.eq_active[self._lock] = 0
-        elif not self._holding and strong_enough and motion < STANDSTILL_SPEED:
+            self._data.eq_active[self._lock] = 0
+        elif not self._holding and strong_enough:
             self._holding = True
-            model.eq_data[self._lock, 0] = data.qpos[self._spin_qpos]
-            data.eq_active[self._lock] = 1
+            self._model.eq_data[self._lock, 0] = self._data.qpos[self._spin_qpos]
+            self._data.eq_active[self._lock] = 1
+
+    def _torque_to_hold(self) -> float:
+        """Wheel torque that engine and gravity, with a reserve, bring against the brake [N m]."""
+        throttle = float(self._data.act[self._throttle_act])
+        forward = self._world_from_car()[:, 0]
+        downhill = abs(float(forward @ self._model.opt.gravity))
+        return (
+            throttle * self.parameters.drive_torque
+            + self.parameters.mass * downhill * self.parameters.wheel_radius
+            + HOLD_RESERVE
+        )

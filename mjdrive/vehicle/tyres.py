@@ -16,6 +16,7 @@ from mjdrive.vehicle.assembly import WHEELS
 from mjdrive.vehicle.parameters import VehicleParameters
 
 MIN_SPEED = 1e-3  # of the tyre law [m/s]; below it the tyre sticks
+MAX_SPEED = 80.0  # of the tyre law [m/s]; beyond it the impedance would leave MuJoCo's range
 STEP_DAMPING = 0.9  # timestep * B; the explicit friction row is stable below 1
 IMPEDANCE_RATIO = 300.0
 MIN_NORMAL_REGULARIZATION = 0.2  # R_n [1/kg]; the impedance ratio rises near standstill to keep it
@@ -31,12 +32,17 @@ class Tyres:
         self._model = model
         self._pairs = np.array([model.pair(f"tyre_{wheel}").id for wheel in WHEELS])
         self._inverse_weight = model.body_invweight0[wheels, 0]
-        self._cornering_stiffness = np.repeat(
-            [parameters.cornering_stiffness_front, parameters.cornering_stiffness_rear], 2
-        )
+        self._solimp = model.pair_solimp  # views of the model
+        self._solref = model.pair_solref
+        self._solref_friction = model.pair_solreffriction
+        self._solref_friction[self._pairs, 0] = -1.0
         self._spring = parameters.tyre_vertical_stiffness
         self._damping = parameters.tyre_vertical_damping
         self._slip_damping = STEP_DAMPING / model.opt.timestep
+        cornering_stiffness = np.repeat(
+            [parameters.cornering_stiffness_front, parameters.cornering_stiffness_rear], 2
+        )
+        self._per_speed = self._slip_damping / cornering_stiffness
         self._soften_other_contacts([model.geom(f"tyre_{wheel}").id for wheel in WHEELS])
 
     def schedule(self, speeds: Float[np.ndarray, " 4"]) -> None:
@@ -45,21 +51,17 @@ class Tyres:
         Args:
             speeds: Larger of travel and rolling speed, in the order of `WHEELS` [m/s].
         """
-        model, pairs = self._model, self._pairs
-        friction_regularization = (
-            self._slip_damping * np.maximum(speeds, MIN_SPEED) / self._cornering_stiffness
-        )
+        friction_regularization = speeds.clip(MIN_SPEED, MAX_SPEED) * self._per_speed
         ratio = max(IMPEDANCE_RATIO, MIN_NORMAL_REGULARIZATION / friction_regularization.min())
-        impedance = self._inverse_weight / (self._inverse_weight + ratio * friction_regularization)
-        impedance = np.clip(impedance, 1e-4, 0.9999)
-        regularization = (1.0 - impedance) / impedance * self._inverse_weight
-        model.opt.impratio = ratio
-        model.pair_solimp[pairs, 0] = impedance
-        model.pair_solimp[pairs, 1] = impedance
-        model.pair_solref[pairs, 0] = -self._spring * regularization * impedance
-        model.pair_solref[pairs, 1] = -self._damping * regularization * impedance
-        model.pair_solreffriction[pairs, 0] = -1.0
-        model.pair_solreffriction[pairs, 1] = -self._slip_damping * impedance
+        regularization = ratio * friction_regularization
+        impedance = self._inverse_weight / (self._inverse_weight + regularization)
+        scale = regularization * impedance
+        self._model.opt.impratio = ratio
+        self._solimp[self._pairs, 0] = impedance
+        self._solimp[self._pairs, 1] = impedance
+        self._solref[self._pairs, 0] = -self._spring * scale
+        self._solref[self._pairs, 1] = -self._damping * scale
+        self._solref_friction[self._pairs, 1] = -self._slip_damping * impedance
 
     def _soften_other_contacts(self, geoms: list[int]) -> None:
         """Give a tyre the same spring against kerbs and walls; a rigid one would kick three times as hard."""
