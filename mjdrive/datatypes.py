@@ -7,7 +7,7 @@ World frame: x east, y north, z up (OpenDRIVE axes; CARLA's y is minus ours). Ve
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from enum import IntEnum
-from typing import Protocol, TypeVar
+from typing import Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float, UInt8
@@ -279,6 +279,7 @@ class Episode:
         _freeze_arrays(self)
 
 
+@runtime_checkable
 class Policy(Protocol[View_contra]):
     """Chooses actions; a learned policy is a `Policy[Observation]`, an expert a `Policy[Situation]`."""
 

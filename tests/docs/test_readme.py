@@ -1,0 +1,75 @@
+"""Documentation that does not run is a rumour."""
+
+import re
+import shlex
+from pathlib import Path
+
+import click
+import mktestdocs
+import pytest
+
+from mjdrive.cli.main import main
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = [
+    ROOT / name for name in ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md")
+]
+
+
+def blocks(page: Path) -> list[str]:
+    """Every line of the shell blocks of a page."""
+    found = re.findall(r"^```bash\n(.*?)^```", page.read_text(), flags=re.MULTILINE | re.DOTALL)
+    return "\n".join(found).splitlines()
+
+
+def mentions(page: Path) -> list[str]:
+    """Every call of mjdrive or make within a line of text."""
+    found = re.findall(r"`([^`\n]+)`", page.read_text())
+    return [line for line in found if re.match(r"(mjdrive|make) [a-z]", line)]
+
+
+def test_the_pages_show_the_three_lines() -> None:
+    shown = blocks(ROOT / "README.md")
+    for line in ("collect --town town01", "train da-ibc", "drive --town town02 --steps 3000"):
+        assert f"mjdrive {line}" in shown
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_commands_and_their_options_exist(page: Path) -> None:
+    targets = set(re.findall(r"^([a-z]+):", (ROOT / "Makefile").read_text(), flags=re.MULTILINE))
+    for line in blocks(page) + mentions(page):
+        program, *words = shlex.split(line)
+        if program == "make":
+            assert set(words) <= targets, line
+        elif program == "mjdrive" and not words[0].startswith("--"):
+            known = {name for param in main.commands[words[0]].params for name in param.opts}
+            assert {word for word in words if word.startswith("-")} <= known | {"--help"}, line
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_lines_in_blocks_can_be_run(page: Path) -> None:
+    for line in blocks(page):
+        program, *words = shlex.split(line)
+        assert program in {"mjdrive", "make"}, line
+        if program == "mjdrive":
+            command = main.commands[words[0]]
+            command.parse_args(click.Context(command), words[1:])  # raises on what it cannot read
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_and_paths_lead_somewhere(page: Path) -> None:
+    for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
+        assert (page.parent / target).exists(), target
+
+
+def test_rooms_and_files_of_the_architecture_are_those_there_are() -> None:
+    drawn = (ROOT / "ARCHITECTURE.md").read_text().partition("## Folders")[2].partition("##")[0]
+    there = {path.name for folder in ("mjdrive", "models") for path in (ROOT / folder).rglob("*.*")}
+    assert set(re.findall(r"\b\w+\.py\b", drawn)) <= there
+    rooms = {path.parent.name for path in (ROOT / "mjdrive").glob("*/__init__.py")}
+    assert rooms == set(re.findall(r"^ {6}(\w+)/", drawn, flags=re.MULTILINE)) - {"samplers"}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_python_blocks_run(page: Path) -> None:
+    mktestdocs.check_md_file(page, memory=True)
