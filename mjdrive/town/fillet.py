@@ -12,6 +12,9 @@ from mjdrive.town.road_map import Piece
 _KINK = 1e-4
 """Change of heading that counts as none [rad]."""
 
+SLIGHT_BEND_RADIUS = 500.0
+"""Radius of bends that nobody notices; far larger ones lose digits in readers with single precision [m]."""
+
 _SHORTEST_LINE = 1e-6
 """Lines below this length are left out [m]."""
 
@@ -39,7 +42,7 @@ def join(start: Pose, end: Pose, *, radius: float | None, what: str) -> tuple[Pi
     Args:
         start: Where the path begins.
         end: Where it ends.
-        radius: Radius of the arc [m]; the largest that fits if None.
+        radius: Radius of the arc [m]; None for a slight bend: the largest that fits, up to 500 m.
         what: How an error calls the path.
 
     Returns:
@@ -58,7 +61,7 @@ def join(start: Pose, end: Pose, *, radius: float | None, what: str) -> tuple[Pi
     lead_out = _cross(start.direction, gap) / np.sin(angle)
     half_tangent = np.tan(abs(angle) / 2.0)
     largest = min(lead_in, lead_out) / half_tangent
-    radius = largest if radius is None else radius
+    radius = min(largest, SLIGHT_BEND_RADIUS) if radius is None else radius
     if not 0.0 < radius <= largest + 1e-9:
         raise TownFormatError(
             f"{what} asks for a radius of {radius:.2f} m; expected more than 0 and at most {largest:.2f} m between "

@@ -27,9 +27,6 @@ _CENTRE_MARK = RoadMark("broken", "yellow", 0.125)
 _KERB_MARK = RoadMark("curb", "standard", 0.152)
 _FIRST_CONNECTING_ROAD = 1000
 
-_BEND_RADIUS = 500.0
-"""Radius of the slight bends of a street [m]."""
-
 
 def build_map(plan: StreetPlan) -> RoadMap:
     """Draw the map of a street plan.
@@ -106,9 +103,7 @@ def _street(plan: StreetPlan, road: str) -> Road:
     poses = [_outward(plan, road, start), *half_ways, _inward(plan, road, end)]
     pieces: tuple[Piece, ...] = ()
     for here, there in pairwise(poses):
-        run = join(
-            here, there, radius=_BEND_RADIUS if len(corners) > 2 else None, what=f"Street '{road}'"
-        )
+        run = join(here, there, radius=None, what=f"Street '{road}'")
         pieces = extend(pieces, run)
     links = [_link_at(plan, road, node) for node in (start, end)]
     return _two_way(road, pieces, links[0], links[1], plan.cross_section)

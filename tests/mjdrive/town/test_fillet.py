@@ -46,6 +46,11 @@ def test_poses_on_one_line_are_joined_by_a_line() -> None:
     assert (line.length, line.curvature) == (20.0, 0.0)
 
 
+def test_without_a_radius_slight_bends_have_500_metres() -> None:
+    pieces = join(_pose(0.0, 0.0, 0.0), _pose(40.0, 0.02, 0.001), radius=None, what="test")
+    assert [round(piece.curvature, 9) for piece in pieces] == [0.0, 0.002, 0.0]
+
+
 def test_without_a_radius_the_largest_that_fits_is_taken() -> None:
     pieces = join(_pose(0.0, 0.0, 0.0), _pose(10.0, 30.0, np.pi / 2), radius=None, what="test")
     assert [piece.curvature for piece in pieces] == [pytest.approx(0.1), 0.0]
