@@ -221,10 +221,10 @@ class DisturbanceConfig:
         stop_brake: Brake command of a stop [-].
     """
 
-    steering_rate_per_min: float = 12.0
-    steering_amplitude: float = 0.4
-    steering_duration: float = 1.2
-    stop_rate_per_min: float = 1.0
+    steering_rate_per_min: float = 15.0
+    steering_amplitude: float = 0.55
+    steering_duration: float = 1.4
+    stop_rate_per_min: float = 1.5
     stop_duration: float = 2.5
     stop_brake: float = 0.4
 

@@ -1,7 +1,7 @@
 """Town + pose + time -> the five channels that a policy sees. A pure function: nothing is remembered between calls.
 
 Source of the conventions: Roach's chauffeurnet renderer and the paper's configuration of it (five channels, history
--16, -9, -1 at 10 Hz), described in docs; the rasters are drawn once, every frame is one affine warp.
+-16, -9, -1 at 10 Hz; docs/decisions.md); the rasters are drawn once, every frame is one affine warp.
 """
 
 import cv2

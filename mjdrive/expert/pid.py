@@ -1,7 +1,7 @@
 """The PID expert: follows a dense route, slows for turns and obeys the lights.
 
 Reference:
-    Chen et al., Learning by Cheating, CoRL 2019; the roaming agent of the paper's code, described in docs.
+    Chen et al., Learning by Cheating, CoRL 2019; the roaming agent of the paper's code (docs/decisions.md).
 """
 
 from collections import deque

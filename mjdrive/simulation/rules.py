@@ -1,6 +1,6 @@
 """The rules of a drive: red lights, collisions, kerbs and leaving the road.
 
-Red lights follow the Leaderboard 1.0 criterion, see docs; what counts as off the road is stricter than there: the
+Red lights follow the Leaderboard 1.0 criterion (docs/decisions.md); what counts as off the road is stricter than there: the
 centre of the car outside every driving lane, where the Leaderboard allows 1.3 m beyond the lane.
 """
 
