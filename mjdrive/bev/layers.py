@@ -26,8 +26,6 @@ MARKED = 255
 LIGHT_VALUES = {Signal.GREEN: 80, Signal.YELLOW: 170, Signal.RED: 255}
 """Grey level of a stop line. Source: Zhang et al., Roach (ICCV 2021), BEV of the paper's code."""
 
-_CODE_OF_VALUE = np.zeros(256, np.uint8)
-_CODE_OF_VALUE[list(LIGHT_VALUES.values())] = (1, 2, 3)
 _VALUE_OF_CODE = np.array([0, *LIGHT_VALUES.values()], np.uint8)
 
 
@@ -42,9 +40,10 @@ def pack(bev: UInt8[np.ndarray, "5 H W"]) -> UInt8[np.ndarray, "H W"]:
     Returns:
         One code a pixel.
     """
-    code = (bev[Layer.ROAD] > 0) | ((bev[Layer.LANE_LINES] > 0).astype(np.uint8) << 1)
+    code = (bev[Layer.ROAD] & 1) | (bev[Layer.LANE_LINES] & 2)
     for place, layer in enumerate(LIGHT_LAYERS):
-        code |= _CODE_OF_VALUE[bev[layer]] << np.uint8(2 + 2 * place)
+        # The two highest bits tell nothing, green, yellow and red apart.
+        code |= bev[layer] >> 6 << (2 + 2 * place)
     return code
 
 

@@ -37,7 +37,7 @@ class BevProjector:
             [_drawn_line(town, light.id, self.config) for light in self._lights]
         )
         self._raster_from_world = _raster_from_world(town, self.config.pixels_per_metre)
-        self._raster = _draw_town(town, self._raster_from_world, self.config)
+        self._rasters = _draw_town(town, self._raster_from_world, self.config)
 
     def project(
         self, *, x: float, y: float, yaw: float, time: float, light_phase: float
@@ -57,11 +57,10 @@ class BevProjector:
         size = self.config.size_px
         view_from_world = self._view_from_world(x, y, yaw)
         view_from_raster = view_from_world @ np.linalg.inv(self._raster_from_world)
-        town_view = cv2.warpAffine(self._raster, view_from_raster[:2], (size, size))
-        bev = np.zeros((len(Layer), size, size), np.uint8)
-        # Any touched pixel counts, as in the original, so thin lines stay unbroken at every angle.
-        bev[Layer.ROAD][town_view[:, :, 0] > 0] = MARKED
-        bev[Layer.LANE_LINES][town_view[:, :, 1] > 0] = MARKED
+        for layer, raster in self._rasters.items():
+            warped = cv2.warpAffine(raster, view_from_raster[:2], (size, size))
+            # Any touched pixel counts, as in the original, so thin lines stay unbroken at every angle.
+            cv2.threshold(warped, 0, MARKED, cv2.THRESH_BINARY, dst=bev[layer])
         self._draw_lights(bev, view_from_world, time, light_phase)
         return bev
 
@@ -112,8 +111,8 @@ def _raster_from_world(town: Town, pixels_per_metre: float) -> Float[np.ndarray,
 
 def _draw_town(
     town: Town, raster_from_world: Float[np.ndarray, "3 3"], config: BevConfig
-) -> UInt8[np.ndarray, "H W 2"]:
-    """Draw road (channel 0) and lane lines (channel 1) of a whole town, once."""
+) -> dict[Layer, UInt8[np.ndarray, "H W"]]:
+    """Draw road and lane lines of a whole town, once."""
     extent = (town.bounds[2:] - town.bounds[:2] + 2 * _MARGIN) * config.pixels_per_metre
     width_px, height_px = np.ceil(extent).astype(int).tolist()
     road = np.zeros((height_px, width_px), np.uint8)
@@ -132,4 +131,4 @@ def _draw_town(
         cv2.polylines(road, [outline], True, MARKED, config.road_outline_px)
         if lane.junction is None:
             cv2.polylines(lane_lines, [to_pixels(edge) for edge in edges], False, MARKED, 1)
-    return np.stack([road, lane_lines], axis=2)
+    return {Layer.ROAD: road, Layer.LANE_LINES: lane_lines}
