@@ -57,6 +57,7 @@ class BevProjector:
         size = self.config.size_px
         view_from_world = self._view_from_world(x, y, yaw)
         view_from_raster = view_from_world @ np.linalg.inv(self._raster_from_world)
+        bev = np.zeros((len(Layer), size, size), np.uint8)
         for layer, raster in self._rasters.items():
             warped = cv2.warpAffine(raster, view_from_raster[:2], (size, size))
             # Any touched pixel counts, as in the original, so thin lines stay unbroken at every angle.

@@ -17,6 +17,7 @@ from mjdrive.simulation.contacts import ContactWatch
 from mjdrive.simulation.rules import Rules
 from mjdrive.town import library, signals
 from mjdrive.vehicle.car import Car
+from mjdrive.vehicle.engine import require_sane
 from mjdrive.vehicle.parameters import VehicleParameters
 
 _STANDING = Action(acceleration=0.0, steering=0.0)
@@ -109,6 +110,9 @@ class Simulation:
 
         Returns:
             The infractions of this interval.
+
+        Raises:
+            PhysicsError: If the physics has become unstable.
         """
         config = self.config
         self._action = Action(
@@ -123,6 +127,7 @@ class Simulation:
                 self.model, self.data, round(config.car_update_interval / config.timestep)
             )
             hits |= self._contacts.hits()
+        require_sane(self.data)
         self._num_steps += 1
         return self._rules.check(
             time=self.time, vehicle=self.vehicle, lights=self.lights, hits=sorted(hits)
