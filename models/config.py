@@ -14,17 +14,24 @@ METHODS: tuple[Method, ...] = ("bc-beta", "ibc", "da-ibc")
 STATE_INPUTS: tuple[StateInput, ...] = ("speed", "previous_acceleration", "previous_steering")
 
 
-def _require(condition: bool, name: str, value: object, expected: str) -> None:
+def _require(config: object, name: str, condition: bool, expected: str) -> None:
     if not condition:
-        raise SettingError(f"{name} is {value!r}; expected {expected}.")
+        raise SettingError(f"{name} is {getattr(config, name)!r}; expected {expected}.")
 
 
-def _require_share(name: str, value: float) -> None:
-    _require(0 <= value <= 1, name, value, "a share in [0, 1]")
+def _require_positive(config: object, *names: str) -> None:
+    for name in names:
+        _require(config, name, getattr(config, name) > 0, "a positive number")
 
 
-def _require_positive(name: str, value: float) -> None:
-    _require(value > 0, name, value, "a positive number")
+def _require_not_negative(config: object, *names: str) -> None:
+    for name in names:
+        _require(config, name, getattr(config, name) >= 0, "zero or a positive number")
+
+
+def _require_share(config: object, *names: str) -> None:
+    for name in names:
+        _require(config, name, 0 <= getattr(config, name) <= 1, "a share in [0, 1]")
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -36,22 +43,20 @@ class NetworkConfig:
         state_inputs: Which components of the state are seen; the others are zero.
         state_dropout: Chance of a training pair to lose its previous action [-].
         speed_scale: Speed that is fed in as 1 [m/s].
+        action_gain: Factor on the first weights of an action in the energy; 1 is plain initialisation, more bends energies sooner [-].
     """
 
     fusion: Literal["roach", "separate"] = "roach"
     state_inputs: tuple[StateInput, ...] = STATE_INPUTS
     state_dropout: float = 0.0
     speed_scale: float = 1.0
+    action_gain: float = 1.0
 
     def __post_init__(self) -> None:
-        _require(
-            set(self.state_inputs) <= set(STATE_INPUTS),
-            "state_inputs",
-            self.state_inputs,
-            f"names among {', '.join(STATE_INPUTS)}",
-        )
-        _require_share("state_dropout", self.state_dropout)
-        _require_positive("speed_scale", self.speed_scale)
+        known = set(self.state_inputs) <= set(STATE_INPUTS)
+        _require(self, "state_inputs", known, f"names among {', '.join(STATE_INPUTS)}")
+        _require_share(self, "state_dropout")
+        _require_positive(self, "speed_scale", "action_gain")
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -71,15 +76,8 @@ class BetaConfig:
     inference: Literal["mode", "mean", "sample"] = "mode"
 
     def __post_init__(self) -> None:
-        _require(
-            0 < self.label_clamp < 0.5, "label_clamp", self.label_clamp, "a number in (0, 0.5)"
-        )
-        _require(
-            self.entropy_bonus >= 0,
-            "entropy_bonus",
-            self.entropy_bonus,
-            "zero or a positive number",
-        )
+        _require(self, "label_clamp", 0 < self.label_clamp < 0.5, "a number in (0, 0.5)")
+        _require_not_negative(self, "entropy_bonus")
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -101,9 +99,9 @@ class NegativesConfig:
     pool: Literal["minibatch", "dataset"] = "minibatch"
 
     def __post_init__(self) -> None:
-        _require(self.count >= 1, "count", self.count, "at least 1 negative")
-        _require(self.sigma >= 0, "sigma", self.sigma, "zero or a positive number")
-        _require_share("uniform_share", self.uniform_share)
+        _require_positive(self, "count")
+        _require_not_negative(self, "sigma")
+        _require_share(self, "uniform_share")
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -125,9 +123,9 @@ class DensityConfig:
     cap: float | None = None
 
     def __post_init__(self) -> None:
-        _require_positive("bandwidth", self.bandwidth)
-        _require(self.exponent >= 0, "exponent", self.exponent, "zero or a positive number")
-        _require(self.cap is None or self.cap >= 1, "cap", self.cap, "None or a number from 1 up")
+        _require_positive(self, "bandwidth")
+        _require_not_negative(self, "exponent")
+        _require(self, "cap", self.cap is None or self.cap >= 1, "None or a number from 1 up")
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -155,11 +153,10 @@ class DfoConfig:
     bound: float = 1.0
 
     def __post_init__(self) -> None:
-        _require(self.num_samples >= 1, "num_samples", self.num_samples, "at least 1")
-        _require(self.iterations >= 1, "iterations", self.iterations, "at least 1")
-        _require(self.sigma_init >= 0, "sigma_init", self.sigma_init, "zero or a positive number")
-        _require(0 < self.shrink <= 1, "shrink", self.shrink, "a number in (0, 1]")
-        _require(0 < self.bound <= 1, "bound", self.bound, "a number in (0, 1]")
+        _require_positive(self, "num_samples", "iterations")
+        _require_not_negative(self, "sigma_init")
+        _require(self, "shrink", 0 < self.shrink <= 1, "a number in (0, 1]")
+        _require(self, "bound", 0 < self.bound <= 1, "a number in (0, 1]")
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -177,8 +174,8 @@ class GridConfig:
     temperature: float = 1.0
 
     def __post_init__(self) -> None:
-        _require(self.points >= 2, "points", self.points, "at least 2")
-        _require_positive("temperature", self.temperature)
+        _require(self, "points", self.points >= 2, "at least 2")
+        _require_positive(self, "temperature")
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -223,20 +220,12 @@ class OptimiserConfig:
     ema_decay: float = 0.0
 
     def __post_init__(self) -> None:
-        _require_positive("learning_rate", self.learning_rate)
-        _require(self.epochs >= 1, "epochs", self.epochs, "at least 1")
-        _require(self.batch_size >= 1, "batch_size", self.batch_size, "at least 1")
-        _require(self.weight_decay >= 0, "weight_decay", self.weight_decay, "zero or more")
-        _require(
-            self.gradient_clip is None or self.gradient_clip > 0,
-            "gradient_clip",
-            self.gradient_clip,
-            "None or a positive number",
-        )
-        _require(
-            0 <= self.validation_share < 1, "validation_share", self.validation_share, "in [0, 1)"
-        )
-        _require(0 <= self.ema_decay < 1, "ema_decay", self.ema_decay, "a number in [0, 1)")
+        _require_positive(self, "learning_rate", "epochs", "batch_size")
+        _require_not_negative(self, "weight_decay")
+        clip = self.gradient_clip
+        _require(self, "gradient_clip", clip is None or clip > 0, "None or a positive number")
+        _require(self, "validation_share", 0 <= self.validation_share < 1, "a share in [0, 1)")
+        _require(self, "ema_decay", 0 <= self.ema_decay < 1, "a number in [0, 1)")
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -262,4 +251,4 @@ class LearnerConfig:
     optimiser: OptimiserConfig = OptimiserConfig()
 
     def __post_init__(self) -> None:
-        _require(self.method in METHODS, "method", self.method, f"one of {', '.join(METHODS)}")
+        _require(self, "method", self.method in METHODS, f"one of {', '.join(METHODS)}")

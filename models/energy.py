@@ -19,9 +19,13 @@ class EnergyHead(nn.Module):
     done once an observation, and the candidates cost a product with two columns each.
     """
 
-    def __init__(self, feature_size: int) -> None:
+    def __init__(self, feature_size: int, *, action_gain: float = 1.0) -> None:
         super().__init__()
         self.first = nn.Linear(feature_size + ACTION_SIZE, HIDDEN_SIZE)
+        # Beside 256 features an action moves no hidden unit across its hinge: the energy starts as good as linear in
+        # it, and stays so for long. Larger first weights spread the hinges over the box of actions.
+        with torch.no_grad():
+            self.first.weight[:, feature_size:] *= action_gain
         self.second = nn.Linear(HIDDEN_SIZE, HIDDEN_SIZE)
         self.last = nn.Linear(HIDDEN_SIZE, 1)
 

@@ -41,7 +41,7 @@ class IbcLearner(Learner):
         super().__init__()
         self.config = config
         self.encoder = Encoder(config.network)
-        self.energy = EnergyHead(self.encoder.feature_size)
+        self.energy = EnergyHead(self.encoder.feature_size, action_gain=config.network.action_gain)
         self.experts = ExpertActions()
 
     def prepare(self, actions: Float[Tensor, "D 2"], density: Float[Tensor, " D"]) -> None:

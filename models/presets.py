@@ -46,7 +46,7 @@ def standard(method: Method) -> LearnerConfig:
 def _effective(method: Method, *, epochs: int, negatives: int) -> LearnerConfig:
     return LearnerConfig(
         method=method,
-        network=NetworkConfig(state_inputs=("speed",), speed_scale=6.0),
+        network=NetworkConfig(state_inputs=("speed",), speed_scale=6.0, action_gain=16.0),
         beta=BetaConfig(beta_offset=1),
         negatives=NegativesConfig(count=negatives, sigma=0.2),
         density=DensityConfig(weighting="sampler"),

@@ -5,6 +5,7 @@ import json
 from typing import Any
 
 import cattrs
+from cattrs.v import format_exception
 
 from models.config import LearnerConfig
 from models.errors import SettingError
@@ -32,6 +33,13 @@ def _strict_converter() -> cattrs.Converter:
     return converter
 
 
+def _reason(error: BaseException, kind: Any) -> str:
+    """What was wrong with one value, in the words of the check that refused it."""
+    if isinstance(error, SettingError | TypeError):
+        return str(error)
+    return format_exception(error, kind)
+
+
 _CONVERTER = _strict_converter()
 
 
@@ -47,10 +55,16 @@ def from_json(text: str) -> LearnerConfig:
         SettingError: If the text is no JSON object, or a name, type or range is wrong.
     """
     try:
-        return _CONVERTER.structure(json.loads(text), LearnerConfig)
+        values = json.loads(text)
     except json.JSONDecodeError as error:
         raise SettingError(f"Cannot read settings: {error}. Expected a JSON object.") from error
-    except (cattrs.BaseValidationError, TypeError, ValueError) as error:
-        reasons = "; ".join(cattrs.transform_error(error, path="settings"))
+    if not isinstance(values, dict):
+        raise SettingError(f"Settings are a {type(values).__name__}; expected a JSON object.")
+    try:
+        return _CONVERTER.structure(values, LearnerConfig)
+    except cattrs.BaseValidationError as error:
+        reasons = "; ".join(
+            cattrs.transform_error(error, path="settings", format_exception=_reason)
+        )
         names = ", ".join(field.name for field in dataclasses.fields(LearnerConfig))
         raise SettingError(f"Cannot read settings: {reasons}. Expected: {names}.") from error

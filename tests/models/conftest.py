@@ -22,6 +22,12 @@ def _small_config(method: Method, **optimiser: object) -> LearnerConfig:
     )
 
 
+@pytest.fixture(scope="session", autouse=True)
+def _one_thread() -> None:
+    """Tests run beside each other; networks that fight over cores wait for each other."""
+    torch.set_num_threads(1)
+
+
 @pytest.fixture(scope="session")
 def batch() -> Batch:
     """Ten observations of noise, with actions that include the corners."""

@@ -56,12 +56,12 @@ def test_a_truncated_file_is_named(name, share, run):
 
 
 def test_a_missing_folder_is_named(tmp_path):
-    with pytest.raises(CheckpointError, match="There is no run folder '.*absent'"):
+    with pytest.raises(CheckpointError, match=r"There is no run folder '.*absent'"):
         load(tmp_path / "absent")
 
 
 def test_a_folder_that_is_no_run_is_told_apart(tmp_path):
-    with pytest.raises(CheckpointError, match="no complete training run: .*found nothing"):
+    with pytest.raises(CheckpointError, match=r"no complete training run: .*found nothing"):
         load(tmp_path)
 
 
@@ -74,7 +74,7 @@ def test_weights_of_another_network_are_refused(run, small_config):
 
 def test_a_damaged_state_is_refused(run):
     (run / checkpoint.STATE).write_text('{"epoch": 1, "colour": "red"}')
-    with pytest.raises(CheckpointError, match="Cannot read '.*state.json'"):
+    with pytest.raises(CheckpointError, match=r"Cannot read '.*state.json'"):
         load_state(run)
 
 

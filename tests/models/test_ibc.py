@@ -20,7 +20,7 @@ class Constant(nn.Module):
     feature_size = 256
 
     def forward(self, bev, state):
-        return torch.ones(len(bev), self.feature_size)
+        return torch.full((len(bev), self.feature_size), 0.05)
 
 
 def unseen(num):
@@ -43,8 +43,8 @@ def train_at_fork(kind, config, generator):
     learner.encoder = Constant()
     demonstrations = fork(2048, generator)
     learner.prepare(demonstrations.actions, action_density(demonstrations.actions, config.density))
-    optimiser = torch.optim.Adam(learner.energy.parameters(), lr=3e-3)
-    for _ in range(400):
+    optimiser = torch.optim.Adam(learner.energy.parameters(), lr=1e-3)
+    for _ in range(300):
         batch = Batch(
             *(x[torch.randint(2048, (128,), generator=generator)] for x in demonstrations)
         )
@@ -73,7 +73,7 @@ def test_both_sides_of_a_fork_are_kept_and_the_middle_is_not(kind, small_config,
     method = "ibc" if kind is IbcLearner else "da-ibc"
     config = small_config(method)
     config = dataclasses.replace(
-        config, negatives=dataclasses.replace(config.negatives, count=64, uniform_share=0.5)
+        config, negatives=dataclasses.replace(config.negatives, count=32, uniform_share=0.5)
     )
     learner = train_at_fork(kind, config, generator)
     actions = learner.act(*unseen(1000), generator=generator)

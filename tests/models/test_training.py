@@ -11,7 +11,7 @@ from models.learners import build_learner
 from models.training import fit
 
 
-class StopHere(Exception):
+class StoppedError(Exception):
     """What the tests stop a run with."""
 
 
@@ -22,7 +22,7 @@ def train(config, demonstrations, **kwargs):
 
 
 def stop(report):
-    raise StopHere
+    raise StoppedError
 
 
 def assert_same(first, second):
@@ -36,7 +36,7 @@ def assert_same(first, second):
 def test_a_resumed_run_ends_with_the_same_bits(method, small_config, demonstrations, tmp_path):
     config = small_config(method, schedule="onecycle", ema_decay=0.5, weight_decay=0.01)
     straight, history = train(config, demonstrations)
-    with pytest.raises(StopHere):
+    with pytest.raises(StoppedError):
         train(config, demonstrations, folder=tmp_path, on_epoch=stop)
     resumed, resumed_history = train(config, demonstrations, folder=tmp_path, resume=True)
     assert_same(straight, resumed)
@@ -49,9 +49,9 @@ def test_an_epoch_broken_off_leaves_the_one_before(small_config, demonstrations,
 
     def stop_in_second_epoch(report):
         if report.step == 4:
-            raise StopHere
+            raise StoppedError
 
-    with pytest.raises(StopHere):
+    with pytest.raises(StoppedError):
         train(config, demonstrations, folder=tmp_path, on_step=stop_in_second_epoch)
     assert checkpoint.load_state(tmp_path).epoch == 1
     assert len((tmp_path / "metrics.jsonl").read_text().splitlines()) == 1
@@ -82,14 +82,14 @@ def test_every_step_and_epoch_is_reported(small_config, demonstrations, tmp_path
 
 
 def test_training_learns_to_tell_two_pictures_apart(small_config, generator):
-    bev = torch.zeros(32, 5, 192, 192, dtype=torch.uint8)
-    bev[16:] = 255
-    actions = torch.zeros(32, 2)
-    actions[:, 1] = torch.where(torch.arange(32) < 16, 0.5, -0.5)
-    data = TensorDemonstrations(Batch(bev, torch.zeros(32, 3), actions))
+    bev = torch.zeros(16, 5, 192, 192, dtype=torch.uint8)
+    bev[8:] = 255
+    actions = torch.zeros(16, 2)
+    actions[:, 1] = torch.where(torch.arange(16) < 8, 0.5, -0.5)
+    data = TensorDemonstrations(Batch(bev, torch.zeros(16, 3), actions))
     config = small_config("bc-beta", learning_rate=1e-3, epochs=12, batch_size=8)
     learner, _ = train(config, data)
-    chosen = learner.act(bev[[0, 31]], torch.zeros(2, 3), generator=generator)
+    chosen = learner.act(bev[[0, 15]], torch.zeros(2, 3), generator=generator)
     assert chosen[0, 1] > 0.2
     assert chosen[1, 1] < -0.2
 
