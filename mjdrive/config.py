@@ -6,8 +6,9 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import cattrs
+from cattrs.v import format_exception
 
-from mjdrive.errors import ConfigError, UnknownNameError
+from mjdrive.errors import ConfigError
 from mjdrive.files import write_atomically
 
 Config = TypeVar("Config")
@@ -41,11 +42,18 @@ def from_dict(kind: type[Config], values: dict[str, Any]) -> Config:
     try:
         return _CONVERTER.structure(values, kind)
     except (cattrs.BaseValidationError, TypeError, ValueError) as error:
-        reasons = "; ".join(cattrs.transform_error(error, path=kind.__name__))
+        reasons = "; ".join(
+            cattrs.transform_error(error, path=kind.__name__, format_exception=_reason)
+        )
         names = ", ".join(field.name for field in dataclasses.fields(kind))  # type: ignore[arg-type]
         raise ConfigError(
             f"Cannot read {kind.__name__}: {reasons}. Its settings are: {names}."
         ) from error
+
+
+def _reason(error: BaseException, kind: Any) -> str:
+    """Say what is wrong with a value: in the words of the setting that refused it, if it did."""
+    return str(error) if isinstance(error, ConfigError) else format_exception(error, kind)
 
 
 def read_json(kind: type[Config], path: Path) -> Config:
@@ -60,6 +68,10 @@ def read_json(kind: type[Config], path: Path) -> Config:
         raise ConfigError(
             f"Cannot read settings from '{path}': {error}. Expected a JSON object."
         ) from error
+    require(
+        isinstance(values, dict),
+        f"Cannot read settings from '{path}': it holds a {type(values).__name__}; expected a JSON object.",
+    )
     return from_dict(kind, values)
 
 
@@ -254,44 +266,3 @@ class CollectConfig:
 
     def __post_init__(self) -> None:
         require(self.repeats >= 1, f"repeats is {self.repeats}; expected at least 1.")
-
-
-def collect_preset(name: str) -> CollectConfig:
-    """Settings of `collect` by name: "standard", "quick" (three routes) or "paper" (no disturbance).
-
-    Raises:
-        UnknownNameError: If there is no preset of that name.
-    """
-    presets = {
-        "standard": CollectConfig(),
-        "quick": CollectConfig(routes=("route0", "route1", "route4")),
-        "paper": CollectConfig(disturbance=None),
-    }
-    if name not in presets:
-        raise UnknownNameError("collect preset", name, presets)
-    return presets[name]
-
-
-def with_noise(config: CollectConfig, scale: float) -> CollectConfig:
-    """Change how much a collection is disturbed.
-
-    Args:
-        config: Settings to change.
-        scale: Factor on the standard amplitude of steering pulses and rate of stops; 0 disturbs nothing [-].
-
-    Returns:
-        The changed settings.
-
-    Raises:
-        ConfigError: If the scale is negative or makes pulses larger than full lock.
-    """
-    require(scale >= 0, f"noise is {scale}; expected 0 or more.")
-    if scale == 0:
-        return dataclasses.replace(config, disturbance=None)
-    standard = DisturbanceConfig()
-    disturbance = dataclasses.replace(
-        standard,
-        steering_amplitude=scale * standard.steering_amplitude,
-        stop_rate_per_min=scale * standard.stop_rate_per_min,
-    )
-    return dataclasses.replace(config, disturbance=disturbance)

@@ -50,17 +50,16 @@ def collect(
     import numpy as np
     from rich.progress import TaskID
 
-    from mjdrive import config
     from mjdrive.cli.console import closing_table, progress_bars
-    from mjdrive.episodes import dataset
+    from mjdrive.episodes import dataset, presets
     from mjdrive.episodes.demonstrations import collect as collect_routes
     from mjdrive.evaluation.figures import draw_dataset
     from mjdrive.town import library
     from mjdrive.town.routing import route_through
 
-    settings = config.collect_preset(preset)
+    settings = presets.collect_preset(preset)
     if noise is not None:
-        settings = config.with_noise(settings, noise)
+        settings = presets.with_noise(settings, noise)
     town = library.load(town_name)
     waypoints = library.load_settings(town_name).routes
     routes = {name: route_through(town, np.array(places)) for name, places in waypoints.items()}

@@ -42,7 +42,9 @@ def collect_route(
     simulation.place(x=float(x), y=float(y), yaw=float(route.yaw[0]), seed=seed)
     interval = simulation.config.control_interval
     rng = np.random.default_rng([seed, 1])
-    disturbance = config.disturbance and Disturbance(config.disturbance, rng, interval=interval)
+    disturbance = None
+    if config.disturbance is not None:
+        disturbance = Disturbance(config.disturbance, rng, interval=interval)
     episode = rollout(
         simulation,
         PidExpert(simulation.town, config=config.pid, control_interval=interval),

@@ -118,14 +118,14 @@ def _finished(folder: Path, wanted: Manifest) -> dict[str, EpisodeEntry]:
     Raises:
         DataError: If the folder holds something else.
     """
-    if not folder.exists() or not any(folder.iterdir()):
+    if not (folder / dataset.MANIFEST).exists() and not any(folder.glob("*.hdf5")):
         return {}
     found = dataset.read_manifest(folder)
     names = [field.name for field in dataclasses.fields(Manifest) if field.name != "episodes"]
     other = [name for name in names if getattr(found, name) != getattr(wanted, name)]
     if other:
         raise DataError(
-            f"'{folder}' holds a data set that differs in {', '.join(other)}. Expected an empty folder or the same "
+            f"'{folder}' holds a data set that differs in {', '.join(other)}. Expected a new folder or the same "
             f"collection. Give another folder with --out, or replace it with --overwrite."
         )
     return {entry.name: entry for entry in found.episodes if dataset.is_intact(folder, entry)}

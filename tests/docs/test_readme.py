@@ -19,7 +19,7 @@ PAGES = [
 def blocks(page: Path) -> list[str]:
     """Every line of the shell blocks of a page."""
     found = re.findall(r"^```bash\n(.*?)^```", page.read_text(), flags=re.MULTILINE | re.DOTALL)
-    return "\n".join(found).splitlines()
+    return [line for block in found for line in block.splitlines() if line]
 
 
 def mentions(page: Path) -> list[str]:

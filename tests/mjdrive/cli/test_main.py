@@ -1,0 +1,109 @@
+import re
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+import mjdrive
+from mjdrive.cli.main import main
+
+HEAVY = ("torch", "mujoco", "numpy", "matplotlib", "cv2", "h5py", "shapely")
+
+
+def run(*words: str) -> tuple[int, str, str]:
+    result = CliRunner().invoke(main, list(words), catch_exceptions=False)
+    return result.exit_code, result.stdout, result.stderr
+
+
+def test_help_imports_nothing_heavy() -> None:
+    program = (
+        "import sys; sys.argv = ['mjdrive', '--help']\n"
+        "from mjdrive.cli.main import main\n"
+        "main(standalone_mode=False)\n"
+        f"print('loaded:', [name for name in {HEAVY} if name in sys.modules])"
+    )
+    shown = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    ).stdout
+    assert "mjdrive collect --town town01" in shown
+    assert shown.endswith("loaded: []\n")
+
+
+def test_help_answers_in_half_a_second() -> None:
+    durations = []
+    for _ in range(3):
+        start = time.perf_counter()
+        subprocess.run([sys.executable, "-m", "mjdrive", "--help"], capture_output=True, check=True)
+        durations.append(time.perf_counter() - start)
+    assert min(durations) < 0.5
+
+
+def test_version_is_that_of_the_package() -> None:
+    assert run("--version") == (0, f"mjdrive, version {mjdrive.__version__}\n", "")
+
+
+MISTAKES = {
+    "unknown town": (["drive", "--town", "town2"], "Unknown town 'town2'.*Did you mean 'town02'"),
+    "unknown town to collect in": (["collect", "--town", "town1"], "Unknown town 'town1'"),
+    "unknown collect preset": (
+        ["collect", "--town", "town01", "--preset", "qick"],
+        "preset 'qick'.*Did you mean 'quick'",
+    ),
+    "unknown train preset": (
+        ["train", "ibc", "--preset", "standrd"],
+        "preset 'standrd'.*Did you mean 'standard'",
+    ),
+    "unknown method": (["train", "da-ibcc"], "method 'da-ibcc'.*Did you mean 'da-ibc'"),
+    "unknown setting": (
+        ["train", "ibc", "--set", "optimizer.epochs=3"],
+        "setting 'optimizer.epochs'.*Did you mean 'optimiser.epochs'",
+    ),
+    "missing data": (["train", "ibc"], "'data/town01' does not exist.*mjdrive collect"),
+    "nothing to resume": (["train", "ibc", "--resume"], "no complete epoch to resume"),
+    "no run at all": (["drive", "--town", "town02"], "no trained run in 'runs'.*mjdrive train"),
+    "unknown policy": (
+        ["drive", "--town", "town02", "--policy", "pd"],
+        "policy 'pd'.*Did you mean 'pid'",
+    ),
+    "folder that is no run": (
+        ["drive", "--town", "town02", "--policy", "."],
+        "no complete training run",
+    ),
+}
+
+
+@pytest.mark.parametrize(("words", "message"), MISTAKES.values(), ids=MISTAKES.keys())
+def test_mistakes_are_one_line_and_leave_nothing(
+    words: list[str], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    status, shown, complaint = run(*words)
+    assert (status, shown) == (2, "")
+    last = complaint.rstrip("\n").rpartition("\n")[2]
+    assert last.startswith("Error: ")
+    assert re.search(message, last)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_ctrl_c_exits_with_130(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(name: str) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("mjdrive.town.library.load", interrupt)
+    status, _, complaint = run("drive", "--town", "town02")
+    assert status == 130
+    assert "Interrupted" in complaint
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_defects_are_not_hidden(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(name: str) -> None:
+        raise ZeroDivisionError
+
+    monkeypatch.setattr("mjdrive.town.library.load", fail)
+    with pytest.raises(ZeroDivisionError):
+        run("drive", "--town", "town02")
