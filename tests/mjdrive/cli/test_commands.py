@@ -128,7 +128,7 @@ def test_nothing_is_overwritten_unless_told(workplace: Path) -> None:
         (["train", "ibc", "--data", "data", *TINY], "holds a training run already"),
         (
             ["train", "ibc", "--data", "data", "--overwrite", "--set", "negatives.count=0"],
-            "count is 0; expected at least 1 negative",
+            "count is 0; expected",
         ),
         (["train", "ibc", "--data", "nowhere", "--overwrite"], "does not exist"),
         (["train", "ibc", "--data", "data", "--resume", "--seed", "8", *TINY], "seed"),

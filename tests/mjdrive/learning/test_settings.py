@@ -39,7 +39,7 @@ def test_unknown_settings_are_refused(assignment: str, message: str) -> None:
         ("optimiser.epochs", "Expected a name and a value"),
         ("method=ibc", "Cannot set 'method=ibc'"),
         ("optimiser.epochs=many", "'many' is no int"),
-        ("optimiser.epochs=0", "epochs is 0; expected at least 1"),
+        ("optimiser.epochs=0", "epochs is 0; expected"),
     ],
 )
 def test_bad_values_are_refused(assignment: str, message: str) -> None:
