@@ -90,6 +90,7 @@ class NegativesConfig:
         clip: Whether disturbed actions are brought back into [-1, 1]; not said in the paper.
         uniform_share: Share of the negatives that are uniform after all [-].
         pool: Which expert actions are disturbed: those of the training minibatch, or all.
+        correction: "ranking" adds the log density of the negatives to the energies in training, so that they learn p(y | x); "none" is the paper's.
     """
 
     count: int = 256
@@ -97,11 +98,18 @@ class NegativesConfig:
     clip: bool = True
     uniform_share: float = 0.0
     pool: Literal["minibatch", "dataset"] = "minibatch"
+    correction: Literal["none", "ranking"] = "none"
 
     def __post_init__(self) -> None:
         _require_positive(self, "count")
         _require_not_negative(self, "sigma")
         _require_share(self, "uniform_share")
+        _require(
+            self,
+            "correction",
+            self.correction == "none" or (self.sigma > 0 and not self.clip),
+            "none, or noise of positive sigma without clip, which would pile negatives up on the edges",
+        )
 
 
 @dataclasses.dataclass(frozen=True, slots=True)

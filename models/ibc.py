@@ -53,6 +53,18 @@ class IbcLearner(Learner):
         count = self.config.negatives.count
         return uniform_actions(len(batch.actions), count, generator=generator)
 
+    def log_negative_density(
+        self, batch: Batch, candidates: Float[Tensor, "B N 2"]
+    ) -> Float[Tensor, "B N"] | None:
+        """Log density of the negatives to correct the energies by, or None if that changes nothing [nats].
+
+        Reference:
+            Singh, Tu, Sindhwani, Revisiting Energy Based Models as Policies: Ranking Noise Contrastive Estimation
+            and Interpolating Energy Models, 2023: trained on -E - log p_n(y), exp(-E) becomes p(y | x) itself.
+        """
+        del batch, candidates
+        return None  # uniform negatives have the same density everywhere
+
     def loss(
         self, batch: Batch, *, weights: Float[Tensor, " B"] | None, generator: torch.Generator
     ) -> Float[Tensor, ""]:
@@ -61,6 +73,9 @@ class IbcLearner(Learner):
         negatives = self.negatives(batch, generator=generator)
         candidates = torch.cat((batch.actions[:, None], negatives), dim=1)  # (B, 1 + N, 2)
         energies = self.energy(self.encoder(batch.bev, state), candidates)
+        log_density = self.log_negative_density(batch, candidates)
+        if log_density is not None:
+            energies = energies + log_density
         return weighted_mean(info_nce(energies[:, 0], energies[:, 1:]), weights)
 
     @torch.no_grad()

@@ -1,5 +1,7 @@
 """Negative examples: actions that the expert did not choose here."""
 
+import math
+
 import torch
 from jaxtyping import Float
 from torch import Tensor
@@ -87,3 +89,34 @@ def mixed_negatives(
         return perturbed
     uniform = uniform_actions(num_observations, num_uniform, generator=generator)
     return torch.cat((perturbed, uniform), dim=1)
+
+
+@torch.no_grad()
+def log_density(
+    actions: Float[Tensor, "B N 2"], expert_actions: Float[Tensor, "P 2"], config: NegativesConfig
+) -> Float[Tensor, "B N"]:
+    """Log of the density that `mixed_negatives` draws from, for negatives that are not clipped.
+
+    Args:
+        actions: Where to evaluate it [-].
+        expert_actions: What was disturbed [-].
+        config: Noise and share of uniform negatives.
+
+    Returns:
+        Log density per unit of action area [nats].
+    """
+    num_uniform = round(config.uniform_share * config.count)
+    share = num_uniform / config.count
+    points = actions.float().flatten(0, 1)  # (B N, 2)
+    squared = torch.cdist(points, expert_actions.float()).square()  # (B N, P)
+    gaussians = torch.logsumexp(-0.5 * squared / config.sigma**2, dim=1)
+    disturbed = gaussians - math.log(len(expert_actions) * 2 * math.pi * config.sigma**2)
+    if num_uniform == 0:
+        return disturbed.view(actions.shape[:2])
+    inside = (points.abs() <= ACTION_BOUND).all(dim=1)
+    uniform = torch.where(
+        inside, math.log(share) - ACTION_SIZE * math.log(2 * ACTION_BOUND), -math.inf
+    )
+    if num_uniform == config.count:
+        return uniform.view(actions.shape[:2])
+    return torch.logaddexp(disturbed + math.log(1 - share), uniform).view(actions.shape[:2])

@@ -48,8 +48,10 @@ def _effective(method: Method, *, epochs: int, negatives: int) -> LearnerConfig:
         method=method,
         network=NetworkConfig(state_inputs=("speed",), speed_scale=6.0, action_gain=16.0),
         beta=BetaConfig(beta_offset=1),
-        negatives=NegativesConfig(count=negatives, sigma=0.2),
-        density=DensityConfig(weighting="sampler"),
+        negatives=NegativesConfig(
+            count=negatives, sigma=0.2, clip=False, uniform_share=0.5, correction="ranking"
+        ),
+        density=DensityConfig(weighting="none"),
         sampler=SamplerConfig(
             kind="grid",
             dfo=DfoConfig(num_samples=2048, temper=True),

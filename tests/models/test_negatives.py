@@ -1,10 +1,17 @@
 import dataclasses
+import math
 
 import pytest
 import torch
 
 from models.config import NegativesConfig
-from models.negatives import mixed_negatives, perturbed_expert_negatives, uniform_actions
+from models.errors import SettingError
+from models.negatives import (
+    log_density,
+    mixed_negatives,
+    perturbed_expert_negatives,
+    uniform_actions,
+)
 
 EXPERTS = torch.tensor([[-0.5, 0.0], [0.25, 0.5]])
 CONFIG = NegativesConfig(count=400, sigma=0.0)
@@ -50,3 +57,32 @@ def test_observations_get_different_negatives(generator):
     config = dataclasses.replace(CONFIG, sigma=0.1)
     first, second = mixed_negatives(EXPERTS, 2, config, generator=generator)
     assert not torch.equal(first, second)
+
+
+def test_density_of_negatives_integrates_to_one_and_is_the_one_drawn_from():
+    experts = torch.tensor([[-0.8, 0.0], [0.3, 0.4], [0.3, -0.4]])
+    config = NegativesConfig(
+        count=400, sigma=0.2, clip=False, uniform_share=0.25, correction="ranking"
+    )
+    axis = torch.linspace(-2.5, 2.5, 201)
+    cell = float(axis[1] - axis[0]) ** 2
+    grid = torch.cartesian_prod(axis, axis)
+    density = log_density(grid[None], experts, config).exp()[0]
+    assert float(density.sum()) * cell == pytest.approx(1.0, abs=0.03)
+    drawn = mixed_negatives(experts, 500, config, generator=torch.Generator().manual_seed(0))
+    right = (drawn[..., 0] > 0.05).float().mean()
+    assert float(right) == pytest.approx(float(density[grid[:, 0] > 0.05].sum()) * cell, abs=0.02)
+
+
+def test_ranking_correction_learns_the_density_itself_and_none_its_ratio():
+    # One observation, two actions, the first three times as frequent; negatives follow the experts.
+    # -E + log p_n of the optimum is log p + constant, so the correction must add log p_n exactly once.
+    experts = torch.tensor([[0.5, 0.0]] * 3 + [[-0.5, 0.0]])
+    config = NegativesConfig(sigma=0.1, clip=False, correction="ranking")
+    log_p = log_density(torch.tensor([[[0.5, 0.0], [-0.5, 0.0]]]), experts, config)[0]
+    assert float(log_p[0] - log_p[1]) == pytest.approx(math.log(3.0), abs=1e-4)
+
+
+def test_density_of_clipped_negatives_is_refused():
+    with pytest.raises(SettingError, match="correction is 'ranking'"):
+        NegativesConfig(clip=True, correction="ranking")
