@@ -53,8 +53,8 @@ MISTAKES = {
         "preset 'qick'.*Did you mean 'quick'",
     ),
     "unknown train preset": (
-        ["train", "ibc", "--preset", "standrd"],
-        "preset 'standrd'.*Did you mean 'standard'",
+        ["train", "ibc", "--preset", "papr"],
+        "preset 'papr'.*Did you mean 'paper'",
     ),
     "unknown method": (["train", "da-ibcc"], "method 'da-ibcc'.*Did you mean 'da-ibc'"),
     "unknown setting": (
