@@ -1,7 +1,7 @@
 """Every setting of the learners, among them each ambiguity of the paper; presets are in `models.presets`."""
 
 import dataclasses
-from typing import Literal
+from typing import Literal, get_args
 
 from models.errors import SettingError
 
@@ -10,8 +10,8 @@ StateInput = Literal["speed", "previous_acceleration", "previous_steering"]
 DensityKind = Literal["joint", "product"]
 Choice = Literal["sample", "argmin"]
 
-METHODS: tuple[Method, ...] = ("bc-beta", "ibc", "da-ibc")
-STATE_INPUTS: tuple[StateInput, ...] = ("speed", "previous_acceleration", "previous_steering")
+METHODS: tuple[Method, ...] = get_args(Method)
+STATE_INPUTS: tuple[StateInput, ...] = get_args(StateInput)
 
 
 def _require(config: object, name: str, condition: bool, expected: str) -> None:
@@ -24,14 +24,12 @@ def _require_positive(config: object, *names: str) -> None:
         _require(config, name, getattr(config, name) > 0, "a positive number")
 
 
-def _require_not_negative(config: object, *names: str) -> None:
-    for name in names:
-        _require(config, name, getattr(config, name) >= 0, "zero or a positive number")
+def _require_not_negative(config: object, name: str) -> None:
+    _require(config, name, getattr(config, name) >= 0, "zero or a positive number")
 
 
-def _require_share(config: object, *names: str) -> None:
-    for name in names:
-        _require(config, name, 0 <= getattr(config, name) <= 1, "a share in [0, 1]")
+def _require_share(config: object, name: str) -> None:
+    _require(config, name, 0 <= getattr(config, name) <= 1, "a share in [0, 1]")
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -230,8 +228,8 @@ class OptimiserConfig:
     def __post_init__(self) -> None:
         _require_positive(self, "learning_rate", "epochs", "batch_size")
         _require_not_negative(self, "weight_decay")
-        clip = self.gradient_clip
-        _require(self, "gradient_clip", clip is None or clip > 0, "None or a positive number")
+        if self.gradient_clip is not None:
+            _require_positive(self, "gradient_clip")
         _require(self, "validation_share", 0 <= self.validation_share < 1, "a share in [0, 1)")
         _require(self, "ema_decay", 0 <= self.ema_decay < 1, "a number in [0, 1)")
 
