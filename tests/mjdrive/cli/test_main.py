@@ -49,8 +49,8 @@ MISTAKES = {
     "unknown town": (["drive", "--town", "town2"], "Unknown town 'town2'.*Did you mean 'town02'"),
     "unknown town to collect in": (["collect", "--town", "town1"], "Unknown town 'town1'"),
     "unknown collect preset": (
-        ["collect", "--town", "town01", "--preset", "qick"],
-        "preset 'qick'.*Did you mean 'quick'",
+        ["collect", "--town", "town01", "--preset", "quik"],
+        "preset 'quik'.*Did you mean 'quick'",
     ),
     "unknown train preset": (
         ["train", "ibc", "--preset", "papr"],
