@@ -6,18 +6,19 @@ from collections.abc import Callable
 import pytest
 import torch
 
-from models.config import LearnerConfig, Method
+from models.config import DensityConfig, LearnerConfig, Method, NegativesConfig
 from models.interfaces import Batch, TensorDemonstrations
 from models.presets import quick
 
 
 def _small_config(method: Method, **optimiser: object) -> LearnerConfig:
-    """Settings that train in a fraction of a second."""
+    """Settings that train in a fraction of a second; presets may change, these stay."""
     config = quick(method)
     settings = {"epochs": 2, "batch_size": 4, "precision": "float32", **optimiser}
     return dataclasses.replace(
         config,
-        negatives=dataclasses.replace(config.negatives, count=8),
+        negatives=NegativesConfig(count=8),
+        density=DensityConfig(weighting="sampler"),
         optimiser=dataclasses.replace(config.optimiser, **settings),
     )
 
