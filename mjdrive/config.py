@@ -194,6 +194,8 @@ class PidConfig:
         braking: Deceleration planned towards a stop line or a slower stretch [m/s2].
         brake_gain: Brake per speed error above the plan [1/(m/s)].
         stop_gap: Distance between the nose and the stop line at rest [m].
+        recovery_offset: Farther from the route than this, the expert slows down to come back [m].
+        recovery_speed: Speed until it is back [m/s].
         late_braking: A light that turns yellow is passed when stopping would need more than this [m/s2].
     """
 
@@ -210,6 +212,8 @@ class PidConfig:
     braking: float = 2.5
     brake_gain: float = 0.5
     stop_gap: float = 1.0
+    recovery_offset: float = 0.8
+    recovery_speed: float = 3.0
     late_braking: float = 5.0
 
     def __post_init__(self) -> None:
@@ -234,7 +238,7 @@ class DisturbanceConfig:
     """
 
     steering_rate_per_min: float = 15.0
-    steering_amplitude: float = 0.55
+    steering_amplitude: float = 0.5
     steering_duration: float = 1.4
     stop_rate_per_min: float = 1.5
     stop_duration: float = 2.5

@@ -84,6 +84,9 @@ class PidExpert:
             view, self._stops, nose_ahead=self._nose_ahead, config=self.config
         )
         wanted = reference.turn_speed_limit(view, self.config)
+        if abs(view.offset) > self.config.recovery_offset:
+            # At speed the rack is too slow for large corrections: they would grow from side to side.
+            wanted = min(wanted, self.config.recovery_speed)
         if remaining is not None:
             wanted = min(wanted, float(np.sqrt(2 * self.config.braking * max(remaining, 0.0))))
             if wanted < 0.5 and view.vehicle.speed < 1.0:

@@ -89,10 +89,7 @@ def _draw(
 
 
 def _unpack(codes: UInt8[Tensor, "B H W"]) -> UInt8[Tensor, "B 5 H W"]:
-    """What `layers.unpack` does, on any device."""
-    values = torch.tensor(
-        [0, *layers.LIGHT_VALUES.values()], dtype=torch.uint8, device=codes.device
-    )
-    planes = [(codes & 1) * layers.MARKED, (codes >> 1 & 1) * layers.MARKED]
-    planes += [values[(codes >> shift & 3).int()] for shift in (2, 4, 6)]
-    return torch.stack(planes, dim=1)
+    """What `layers.unpack` does, on any device and, in memory, with the channels last as convolutions like it."""
+    table = torch.from_numpy(layers.unpack(np.arange(256, dtype=np.uint8)[:, None, None]))
+    channels = table.flatten(1).to(codes.device).index_select(0, codes.flatten().int())
+    return channels.view(*codes.shape, -1).permute(0, 3, 1, 2)

@@ -55,7 +55,9 @@ def test_ego_stands_forty_pixels_above_the_bottom_in_the_middle_column():
     assert np.ptp(columns) + 1 == pytest.approx(0.8 * 4.0 * 5 + 6, abs=2)
 
 
-@pytest.mark.parametrize(("x", "y", "yaw"), [(40.0, -7.0, 0.3), (-12.0, 3.0, 2.0), (0.4, 0.2, -1.1)])
+@pytest.mark.parametrize(
+    ("x", "y", "yaw"), [(40.0, -7.0, 0.3), (-12.0, 3.0, 2.0), (0.4, 0.2, -1.1)]
+)
 def test_moving_town_and_car_together_changes_nothing_but_rounding(x, y, yaw):
     still = view(street(), x=75.0, y=-1.0)
     car = np.array([x, y]) + 75.0 * np.array([np.cos(yaw), np.sin(yaw)])
@@ -70,7 +72,10 @@ def test_moving_town_and_car_together_changes_nothing_but_rounding(x, y, yaw):
 def test_light_channels_show_the_past_in_the_frame_of_now():
     # Green until 10 s: at 10.4 s it is yellow now, and was green 0.8 s and 1.5 s ago.
     bev = view(street(), x=75.0, y=-2.0, time=10.4)
-    seen = [int(bev[layer].max()) for layer in (Layer.LIGHTS_OLDEST, Layer.LIGHTS_OLDER, Layer.LIGHTS_NOW)]
+    seen = [
+        int(bev[layer].max())
+        for layer in (Layer.LIGHTS_OLDEST, Layer.LIGHTS_OLDER, Layer.LIGHTS_NOW)
+    ]
     green, yellow = LIGHT_VALUES[Signal.GREEN], LIGHT_VALUES[Signal.YELLOW]
     assert seen == [green, green, yellow]
     drawn = [bev[layer] > 0 for layer in (Layer.LIGHTS_OLDEST, Layer.LIGHTS_NOW)]

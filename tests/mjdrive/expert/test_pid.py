@@ -19,7 +19,9 @@ ROUTE = Route(
 )
 
 
-def situation(*, station: float = 20.0, offset: float = 0.0, yaw: float = 0.0, speed: float = 6.0) -> Situation:
+def situation(
+    *, station: float = 20.0, offset: float = 0.0, yaw: float = 0.0, speed: float = 6.0
+) -> Situation:
     state = VehicleState(station, offset, yaw, speed, 0.0, 0.0)
     return Situation(0.0, state, ROUTE, station, offset, {})
 

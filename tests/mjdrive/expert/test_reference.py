@@ -29,10 +29,19 @@ def bend() -> Route:
 
 
 LIGHT = TrafficLight(
-    "light", "approach", "j", np.array([[40.5, 2.0], [40.5, -2.0]]), 0.0, np.zeros(2), ((Signal.GREEN, 10.0),), 0.0
+    "light",
+    "approach",
+    "j",
+    np.array([[40.5, 2.0], [40.5, -2.0]]),
+    0.0,
+    np.zeros(2),
+    ((Signal.GREEN, 10.0),),
+    0.0,
 )
 LANES = {
-    "approach": Lane("approach", np.array([[0.0, 0.0], [40.5, 0.0]]), 4.0, ("rest",), None, "light"),
+    "approach": Lane(
+        "approach", np.array([[0.0, 0.0], [40.5, 0.0]]), 4.0, ("rest",), None, "light"
+    ),
     "rest": Lane("rest", np.array([[40.5, 0.0], [50.0, 0.0]]), 4.0, (), "j", None),
 }
 TOWN = Town("bend", LANES, {"light": LIGHT}, np.array([0.0, -2.0, 60.0, 60.0]), "")
@@ -61,7 +70,9 @@ def test_route_that_ends_on_an_approach_lane_meets_no_stop_line():
 
 @pytest.mark.parametrize("signal", [Signal.RED, Signal.YELLOW])
 def test_red_and_yellow_stop_the_nose_one_gap_before_the_line(signal):
-    assert distance(situation(station=20.0, signal=signal)) == pytest.approx(40.5 - 23.5 - CONFIG.stop_gap)
+    assert distance(situation(station=20.0, signal=signal)) == pytest.approx(
+        40.5 - 23.5 - CONFIG.stop_gap
+    )
 
 
 def test_green_stops_nobody():
@@ -80,7 +91,9 @@ def test_car_that_waits_with_its_nose_just_over_the_line_goes_on_waiting():
 def test_speed_falls_to_the_bends_speed_by_planned_braking():
     bend_speed = min(CONFIG.turn_speed, np.sqrt(CONFIG.lateral_acceleration * RADIUS))
     assert reference.turn_speed_limit(situation(station=20.0), CONFIG) == CONFIG.target_speed
-    assert reference.turn_speed_limit(situation(station=55.0), CONFIG) == pytest.approx(bend_speed, rel=0.02)
+    assert reference.turn_speed_limit(situation(station=55.0), CONFIG) == pytest.approx(
+        bend_speed, rel=0.02
+    )
     before = reference.turn_speed_limit(situation(station=48.0), CONFIG)
     assert bend_speed < before < CONFIG.target_speed
     assert before**2 <= bend_speed**2 + 2 * CONFIG.braking * 2.5

@@ -12,7 +12,9 @@ LINE = 50.0
 
 @pytest.fixture(scope="module")
 def town() -> Town:
-    approach = Lane("approach", np.array([[0.0, 0.0], [LINE, 0.0]]), 4.0, ("beyond",), None, "light")
+    approach = Lane(
+        "approach", np.array([[0.0, 0.0], [LINE, 0.0]]), 4.0, ("beyond",), None, "light"
+    )
     beyond = Lane("beyond", np.array([[LINE, 0.0], [100.0, 0.0]]), 4.0, (), "j", None)
     light = TrafficLight(
         "light",
@@ -60,7 +62,9 @@ def test_crossing_on_red_counts_once_and_names_the_light(town):
 
 def test_guilt_begins_when_the_tail_reaches_the_line(town):
     half = VehicleParameters.default().length / 2
-    innocent = LINE + 0.8 * half - 0.05  # nose far over the line, near end of the tail just before it
+    innocent = (
+        LINE + 0.8 * half - 0.05
+    )  # nose far over the line, near end of the tail just before it
     assert drive(rules(town), [innocent]) == []
     assert kinds(drive(rules(town), [innocent + 0.1])) == [InfractionKind.RED_LIGHT]
     assert drive(rules(town), [LINE + half + 1.05]) == []
@@ -75,7 +79,9 @@ def test_only_the_middle_of_the_line_is_watched(town):
     centres = np.arange(40.0, 60.0, 0.5)
     assert kinds(drive(rules(town), centres, y=1.55)) == [InfractionKind.RED_LIGHT]
     assert drive(rules(town), centres, y=1.65) == []
-    assert kinds(drive(rules(town, stop_line_share=0.6), centres, y=1.65)) == [InfractionKind.RED_LIGHT]
+    assert kinds(drive(rules(town, stop_line_share=0.6), centres, y=1.65)) == [
+        InfractionKind.RED_LIGHT
+    ]
 
 
 def test_oncoming_cars_cross_freely(town):
