@@ -28,7 +28,7 @@ def quick(method: Method) -> LearnerConfig:
     Returns:
         `standard` with few epochs, few negatives and a coarse grid.
     """
-    return _effective(method, epochs=6, negatives=64)
+    return _effective(method, epochs=5, negatives=64)
 
 
 def standard(method: Method) -> LearnerConfig:
@@ -38,9 +38,10 @@ def standard(method: Method) -> LearnerConfig:
         method: "bc-beta", "ibc" or "da-ibc".
 
     Returns:
-        A sixtieth of the paper's steps at sixty times its step size, blind to the previous action, exact sampler.
+        A thirtieth of the paper's steps at eighty times its step size, blind to the previous action, with the energy
+        corrected for its negatives and sampled exactly.
     """
-    return _effective(method, epochs=20, negatives=256)
+    return _effective(method, epochs=12, negatives=128)
 
 
 def _effective(method: Method, *, epochs: int, negatives: int) -> LearnerConfig:
@@ -58,7 +59,7 @@ def _effective(method: Method, *, epochs: int, negatives: int) -> LearnerConfig:
             grid=GridConfig(points=65),
         ),
         optimiser=OptimiserConfig(
-            learning_rate=6e-4,
+            learning_rate=8e-4,
             schedule="onecycle",
             epochs=epochs,
             precision="bfloat16",

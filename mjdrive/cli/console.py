@@ -23,10 +23,11 @@ class RateColumn(ProgressColumn):
 
     def render(self, task: Task) -> Text:
         """Show the rate, or nothing before there is one."""
-        if not task.elapsed:
+        elapsed = task.finished_time or task.elapsed  # `elapsed` runs on after the task is done
+        if not elapsed:
             return Text("")
         unit = task.fields.get("unit", "steps")
-        rate = task.completed / task.elapsed
+        rate = task.completed / elapsed
         return Text(f"{rate:,.{0 if rate >= 10 else 2}f} {unit}/s", style="progress.data.speed")
 
 

@@ -25,6 +25,11 @@ DRIVES = Path("drives")
     help="A run folder, the name of one in runs/, or the expert. [default: the newest run]",
 )
 @click.option(
+    "--preset",
+    metavar="standard|quick|paper",
+    help="How a trained policy chooses its actions. [default: as it was trained to]",
+)
+@click.option(
     "--seed",
     default=0,
     show_default=True,
@@ -38,7 +43,13 @@ DRIVES = Path("drives")
     help="New folder for the drive. [default: drives/<date and time>]",
 )
 def drive(
-    *, town_name: str, num_steps: int, policy_name: str | None, seed: int, out: Path | None
+    *,
+    town_name: str,
+    num_steps: int,
+    policy_name: str | None,
+    preset: str | None,
+    seed: int,
+    out: Path | None,
 ) -> None:
     """Drive freely through a town, from a random place and with no route.
 
@@ -52,7 +63,7 @@ def drive(
     from mjdrive.town import library
 
     town = library.load(town_name)
-    driver = find_driver(policy_name, RUNS)
+    driver = find_driver(policy_name, RUNS, preset=preset)
     folder = out or report.new_folder(DRIVES, datetime.datetime.now())
     report.require_new(folder)
     with progress_bars() as bars:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from mjdrive import config, versions
 from mjdrive.datatypes import Episode, Town
 from mjdrive.episodes import driving, store
+from mjdrive.errors import ConfigError
 from mjdrive.simulation.simulation import Simulation
 
 if TYPE_CHECKING:
@@ -24,10 +25,12 @@ class Driver:
     Attributes:
         name: How summaries call it.
         digest: SHA-256 of its weights, hexadecimal; empty for the expert.
+        settings: Its settings as JSON text.
         pilot: The trained policy, or None for the expert.
     """
 
     name: str
+    settings: str
     digest: str = ""
     pilot: "Pilot | None" = None
 
@@ -46,6 +49,7 @@ class Driver:
         settings = {
             "num_steps": num_steps,
             "simulation": json.loads(config.to_json(simulation.config)),
+            "policy": json.loads(self.settings),
         }
         metadata = {
             "town_digest": town.digest,
@@ -67,25 +71,34 @@ class Driver:
         )
 
 
-def find_driver(name: str | None, runs: Path) -> Driver:
+def find_driver(name: str | None, runs: Path, *, preset: str | None = None) -> Driver:
     """Find out who shall drive.
 
     Args:
         name: "pid", a run folder, the name of a folder in `runs`, or None for the newest of them.
         runs: Folder of run folders.
+        preset: How a trained policy chooses its actions; as it was trained to if None.
 
     Raises:
+        ConfigError: If there is no such preset, or it has no effect.
         UnknownNameError: If there is no such policy.
         RunError: If the folder is no run, or there is no run at all.
     """
     if name == EXPERT:
-        return Driver(EXPERT)
+        if preset is not None:
+            raise ConfigError(
+                f"--preset {preset} has no effect on the expert. Leave it out, or name a trained policy."
+            )
+        return Driver(EXPERT, settings=config.to_json(config.PidConfig()))
     from mjdrive.learning import pilot  # torch takes a second
     from mjdrive.learning import runs as run_folders
-    from models import checkpoint
+    from models import checkpoint, serialization
 
     folder = run_folders.newest(runs) if name is None else run_folders.find(name, runs)
-    policy = pilot.load(folder)
+    policy = pilot.load(folder, preset=preset)
     return Driver(
-        policy.name, digest=store.digest((folder / checkpoint.MODEL).read_bytes()), pilot=policy
+        policy.name,
+        settings=serialization.to_json(policy.config),
+        digest=store.digest((folder / checkpoint.MODEL).read_bytes()),
+        pilot=policy,
     )

@@ -6,6 +6,7 @@ import torch
 
 from mjdrive.datatypes import Action, Observation
 from mjdrive.errors import RunError
+from mjdrive.learning.settings import acting_settings
 from models import checkpoint
 from models.errors import ModelsError
 from models.interfaces import Learner
@@ -21,6 +22,7 @@ class Pilot:
 
     def __init__(self, learner: Learner, *, name: str) -> None:
         self.name = name
+        self.config = learner.config
         self._learner = learner.eval()
         self._generator = torch.Generator()
 
@@ -38,19 +40,24 @@ class Pilot:
         return Action(acceleration=acceleration, steering=steering)
 
 
-def load(run: Path) -> Pilot:
+def load(run: Path, *, preset: str | None = None) -> Pilot:
     """Load the policy of a training run.
 
     Args:
         run: Folder that `mjdrive train` made.
+        preset: Whose way to choose actions to take; the run's own if None.
 
     Returns:
         The policy, named after the folder.
 
     Raises:
         RunError: If the folder is no run, or a file of it is damaged.
+        ConfigError: If there is no such preset.
     """
     try:
-        return Pilot(checkpoint.load(run), name=run.name)
+        learner = checkpoint.load(run)
     except ModelsError as error:
         raise RunError(str(error)) from error
+    if preset is not None:
+        learner.config = acting_settings(learner.config, preset=preset)
+    return Pilot(learner, name=run.name)

@@ -1,5 +1,6 @@
-"""Settings of a training run from what the command line says."""
+"""Settings of training runs and of their driving, from what the command line says."""
 
+import dataclasses
 import json
 from collections.abc import Iterable
 from typing import Any
@@ -35,6 +36,24 @@ def learner_settings(
         return serialization.from_json(json.dumps(values))
     except SettingError as error:
         raise ConfigError(str(error)) from error
+
+
+def acting_settings(config: LearnerConfig, *, preset: str) -> LearnerConfig:
+    """Let a trained policy choose its actions as a preset does; what it has learnt stays.
+
+    Args:
+        config: Settings that the policy was trained with.
+        preset: "quick", "standard" or "paper".
+
+    Returns:
+        The same settings with the sampler and the inference of the preset.
+
+    Raises:
+        ConfigError: If there is no such preset.
+    """
+    other = learner_settings(config.method, preset=preset)
+    beta = dataclasses.replace(config.beta, inference=other.beta.inference)
+    return dataclasses.replace(config, sampler=other.sampler, beta=beta)
 
 
 def _assign(values: dict[str, Any], assignment: str) -> None:

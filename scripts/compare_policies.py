@@ -1,0 +1,82 @@
+"""Let policies drive a town with the same seeds and print a table: mean and spread over the seeds.
+
+    python scripts/compare_policies.py pid runs/bc-beta runs/ibc runs/da-ibc --out drives/comparison
+"""
+
+import multiprocessing
+import os
+import statistics
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+
+import click
+
+from mjdrive.cli.driver import find_driver
+from mjdrive.evaluation import report
+from mjdrive.evaluation.metrics import DriveSummary
+from mjdrive.town import library
+
+COLUMNS = ("distance_m", "red_lights", "collisions", "kerb_strikes", "off_road_s", "stuck_s", "score")
+
+
+def drive_once(job: tuple[str, str | None, str, int, int, Path]) -> DriveSummary:
+    """Drive one policy with one seed into a folder of its own."""
+    policy, preset, town_name, num_steps, seed, folder = job
+    town = library.load(town_name)
+    driver = find_driver(policy, Path("runs"), preset=preset)
+    episode = driver.drive(town, num_steps=num_steps, seed=seed, on_step=lambda done: None)
+    return report.write_drive(episode, town, folder)
+
+
+def as_row(name: str, drives: list[DriveSummary]) -> str:
+    """One line of the table, in Markdown."""
+    is_clean = [drive.collisions == 0 and drive.off_road_s == 0 for drive in drives]
+    branches = [len(drive.branches_taken) for drive in drives]
+    cells = [name]
+    for column in COLUMNS:
+        values = [float(getattr(drive, column)) for drive in drives]
+        spread = statistics.stdev(values) if len(values) > 1 else 0.0
+        cells.append(f"{statistics.mean(values):.1f} ± {spread:.1f}")
+    cells += [f"{statistics.mean(branches):.1f}", f"{sum(is_clean)} of {len(drives)}"]
+    return f"| {' | '.join(cells)} |"
+
+
+@click.command()
+@click.argument("policies", nargs=-1, required=True)
+@click.option("--town", "town_name", default="town02", show_default=True)
+@click.option("--steps", "num_steps", default=3000, show_default=True)
+@click.option("--seeds", "num_seeds", default=5, show_default=True, help="Seeds 0 to this.")
+@click.option("--preset", help="How trained policies choose their actions.")
+@click.option("--jobs", default=os.cpu_count(), show_default=True, help="Drives at a time.")
+@click.option("--out", type=click.Path(path_type=Path), default=Path("drives/comparison"))
+def main(
+    *,
+    policies: tuple[str, ...],
+    town_name: str,
+    num_steps: int,
+    num_seeds: int,
+    preset: str | None,
+    jobs: int,
+    out: Path,
+) -> None:
+    """Compare policies on the same starts, lights and seeds."""
+    os.environ["OMP_NUM_THREADS"] = "1"  # one drive a core is quicker than one drive on all
+    plan = [
+        (policy, None if policy == "pid" else preset, town_name, num_steps, seed, out / f"{Path(policy).name}-{seed}")
+        for policy in policies
+        for seed in range(num_seeds)
+    ]
+    for job in plan:
+        report.require_new(job[-1])
+    print(f"| policy | {' | '.join(COLUMNS)} | branches | no collision, never off road |")
+    print(f"|{'---|' * (len(COLUMNS) + 3)}")
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(jobs, mp_context=context) as pool:
+        drives = list(pool.map(drive_once, plan))
+    for index, policy in enumerate(policies):
+        of_policy = drives[index * num_seeds : (index + 1) * num_seeds]
+        print(as_row(Path(policy).name, of_policy))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,58 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from mjdrive.datatypes import Observation
+from mjdrive.errors import ConfigError, RunError
+from mjdrive.learning import pilot
+from models import checkpoint, presets
+from models.learners import build_learner
+
+SEEN = Observation(bev=np.full((5, 192, 192), 80, np.uint8), state=np.zeros(3, np.float32))
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Path:
+    """An untrained DA-IBC run."""
+    folder = tmp_path / "mine"
+    learner = build_learner(presets.quick("da-ibc"), seed=0)
+    learner.prepare(torch.zeros(4, 2), torch.ones(4))
+    checkpoint.save(folder, learner, checkpoint.RunState("da-ibc", 0, 1, 1))
+    return folder
+
+
+def test_pilot_is_named_after_its_folder_and_acts_within_bounds(run: Path) -> None:
+    policy = pilot.load(run)
+    policy.reset(0)
+    action = policy.act(SEEN)
+    assert policy.name == "mine"
+    assert abs(action.acceleration) <= 1
+    assert abs(action.steering) <= 1
+
+
+def test_same_seed_acts_alike_and_each_reset_starts_over(run: Path) -> None:
+    policy = pilot.load(run)
+    drives = []
+    for seed in (7, 7, 8):
+        policy.reset(seed)
+        drives.append([policy.act(SEEN) for _ in range(5)])
+    assert drives[0] == drives[1]
+    assert drives[0] != drives[2]
+
+
+def test_preset_changes_how_it_acts_and_not_what_it_learnt(run: Path) -> None:
+    policy = pilot.load(run, preset="paper")
+    assert policy.config.sampler == presets.paper("da-ibc").sampler
+    assert policy.config.network == presets.quick("da-ibc").network
+
+
+def test_unknown_preset_and_folders_without_a_run_are_refused(run: Path, tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match="Did you mean 'paper'"):
+        pilot.load(run, preset="papr")
+    with pytest.raises(RunError, match="no run folder"):
+        pilot.load(tmp_path / "nothing")
+    (run / checkpoint.MODEL).write_bytes(b"cut")
+    with pytest.raises(RunError, match=r"Cannot read .*model.safetensors"):
+        pilot.load(run)
