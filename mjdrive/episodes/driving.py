@@ -71,11 +71,12 @@ def drive_expert(
         The drive.
     """
     config = config or PidConfig()
-    rng = np.random.default_rng(seed)
     town, interval = simulation.town, simulation.config.control_interval
-    lane, station = routing.random_start(town, rng)
+    lane, station = routing.random_start(town, np.random.default_rng(seed))
+    # Turns have a stream of their own, so that they do not hang on how a start is drawn.
+    turns = np.random.default_rng([seed, 1])
     length = config.target_speed * num_steps * interval + 50.0
-    route = routing.random_route(town, lane=lane, station=station, length=length, rng=rng)
+    route = routing.random_route(town, lane=lane, station=station, length=length, rng=turns)
     simulation.reset(lane=lane, station=station, seed=seed)
     return rollout(
         simulation,
