@@ -1,6 +1,6 @@
 """Let policies drive a town with the same seeds and print a table: mean and spread over the seeds.
 
-    python scripts/compare_policies.py pid runs/bc-beta runs/ibc runs/da-ibc --out drives/comparison
+Example: python scripts/compare_policies.py pid runs/bc-beta runs/ibc runs/da-ibc --out drives/comparison
 """
 
 import multiprocessing
@@ -16,7 +16,15 @@ from mjdrive.evaluation import report
 from mjdrive.evaluation.metrics import DriveSummary
 from mjdrive.town import library
 
-COLUMNS = ("distance_m", "red_lights", "collisions", "kerb_strikes", "off_road_s", "stuck_s", "score")
+COLUMNS = (
+    "distance_m",
+    "red_lights",
+    "collisions",
+    "kerb_strikes",
+    "off_road_s",
+    "stuck_s",
+    "score",
+)
 
 
 def drive_once(job: tuple[str, str | None, str, int, int, Path]) -> DriveSummary:
@@ -62,8 +70,8 @@ def main(
     """Compare policies on the same starts, lights and seeds."""
     os.environ["OMP_NUM_THREADS"] = "1"  # one drive a core is quicker than one drive on all
     plan = [
-        (policy, None if policy == "pid" else preset, town_name, num_steps, seed, out / f"{Path(policy).name}-{seed}")
-        for policy in policies
+        (policy, acting, town_name, num_steps, seed, out / f"{Path(policy).name}-{seed}")
+        for policy, acting in ((name, None if name == "pid" else preset) for name in policies)
         for seed in range(num_seeds)
     ]
     for job in plan:

@@ -71,7 +71,8 @@ class Car:
         data.qvel[:2] = speed * np.cos(yaw), speed * np.sin(yaw)
         data.qvel[self._spin_dof] = speed / (parameters.wheel_radius - tyre_deflection)
         self._holding = False
-        self._model.eq_data[self._lock, 0] = 0.0  # an earlier drive's lock angles are no part of this one
+        # The lock angles of an earlier drive are no part of this one.
+        self._model.eq_data[self._lock, 0] = 0.0
         self.update()
         mujoco.mj_forward(self._model, data)
 

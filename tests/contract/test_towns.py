@@ -29,9 +29,7 @@ def test_every_approach_leaves_a_choice_of_two_and_every_light_guards_one(town: 
         moves = {town.lanes[name].move for name in approach.successors}
         assert len(moves) == 2
         assert Move.FOLLOW not in moves
-        np.testing.assert_allclose(
-            light.stop_line.mean(axis=0), approach.centerline[-1], atol=0.01
-        )
+        np.testing.assert_allclose(light.stop_line.mean(axis=0), approach.centerline[-1], atol=0.01)
 
 
 def test_at_most_one_approach_of_a_junction_may_go(town: Town) -> None:

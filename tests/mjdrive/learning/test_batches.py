@@ -14,7 +14,7 @@ LENGTH = 6
 @pytest.fixture(scope="module")
 def episode(town02: Town) -> Episode:
     """A car that is carried along a street, with labels that differ from what was driven."""
-    lane, station = routing.random_start(town02, np.random.default_rng(0))
+    lane, _ = routing.random_start(town02, np.random.default_rng(0))
     point = town02.lanes[lane].centerline[0]
     vehicle = np.zeros((LENGTH, 6))
     vehicle[:, :2] = point + np.arange(LENGTH)[:, None]
