@@ -10,7 +10,6 @@ import numpy as np
 import shapely
 from jaxtyping import Float
 
-from mjdrive import geometry
 from mjdrive.config import RulesConfig
 from mjdrive.datatypes import Infraction, InfractionKind, Signal, Town, TrafficLight, VehicleState
 from mjdrive.town import surface
@@ -30,7 +29,9 @@ class Rules:
         self, town: Town, parameters: VehicleParameters, config: RulesConfig | None = None
     ) -> None:
         self.config = config or RulesConfig()
-        self._lights = town.lights
+        self._lights = tuple(town.lights.values())
+        middles = [light.stop_line.mean(axis=0) for light in self._lights]
+        self._stop_points = np.array(middles).reshape(-1, 2)
         self._half_length = parameters.length / 2
         self._centre_ahead = parameters.length / 2 - parameters.rear_overhang
         self._surface = surface.road_surface(town, shoulder=0.0)
@@ -92,17 +93,16 @@ class Rules:
     def _red_light_run(self, vehicle: VehicleState, lights: Mapping[str, Signal]) -> str | None:
         near_tail = np.array(self._behind_centre(vehicle, 0.8 * self._half_length))
         far_tail = np.array(self._behind_centre(vehicle, self._half_length + 1.0))
-        for name, light in self._lights.items():
-            if lights[name] is not Signal.RED or name == self._last_light_run:
-                continue
-            middle = light.stop_line.mean(axis=0)
-            if np.hypot(*(middle - self._behind_centre(vehicle, 0.0))) > self.config.light_distance:
+        distance = np.hypot(*(self._stop_points - self._behind_centre(vehicle, 0.0)).T)
+        for index in np.flatnonzero(distance <= self.config.light_distance):
+            light = self._lights[index]
+            if lights[light.id] is not Signal.RED or light.id == self._last_light_run:
                 continue
             on_approach = shapely.contains_xy(self._approaches[light.lane], *far_tail)
-            along = np.cos(geometry.wrap_angle(vehicle.yaw - light.yaw)) > 0
+            along = np.cos(vehicle.yaw - light.yaw) > 0
             if on_approach and along and self._crosses(light, near_tail, far_tail):
-                self._last_light_run = name
-                return name
+                self._last_light_run = light.id
+                return light.id
         return None
 
     def _crosses(

@@ -14,6 +14,7 @@ from mjdrive.datatypes import Action, Infraction, Observation, Signal, Town, Veh
 from mjdrive.errors import RouteError
 from mjdrive.simulation import scene
 from mjdrive.simulation.contacts import ContactWatch
+from mjdrive.simulation.lamps import set_lamps
 from mjdrive.simulation.rules import Rules
 from mjdrive.town import library, signals
 from mjdrive.vehicle.car import Car
@@ -60,6 +61,7 @@ class Simulation:
         self._contacts = ContactWatch(self.model, self.data)
         self._num_steps = 0
         self._action = _STANDING
+        self._shown: Mapping[str, Signal] = {}
         self.light_phase = 0.0
 
     def reset(self, *, lane: str, station: float, seed: int) -> None:
@@ -101,6 +103,7 @@ class Simulation:
         self._num_steps = 0
         self._action = _STANDING
         self._rules.reset()
+        self._light_lamps()
 
     def step(self, action: Action) -> tuple[Infraction, ...]:
         """Drive for one control interval.
@@ -129,6 +132,7 @@ class Simulation:
             hits |= self._contacts.hits()
         require_sane(self.data)
         self._num_steps += 1
+        self._light_lamps()
         return self._rules.check(
             time=self.time, vehicle=self.vehicle, lights=self.lights, hits=sorted(hits)
         )
@@ -178,3 +182,11 @@ class Simulation:
         self.light_phase = snapshot.light_phase
         self._action = snapshot.action
         self._rules.reset()
+        self._light_lamps()
+
+    def _light_lamps(self) -> None:
+        """Let the lamps of the scene show what the lights show, for whoever renders it."""
+        lights = self.lights
+        if lights != self._shown:
+            set_lamps(self.model, self.town, lights)
+            self._shown = lights

@@ -73,6 +73,19 @@ def test_lights_run_on_from_the_seeds_phase(driven):
     assert dict(driven.lights) == signals.all_at(driven.town, driven.light_phase)
 
 
+def test_lamps_of_the_scene_show_what_the_lights_show(driven):
+    changes = 0
+    before = dict(driven.lights)
+    for _ in range(110):
+        for light, shown in driven.lights.items():
+            lamp = driven.model.geom(f"lamp_{light}_{shown.name.lower()}").rgba
+            assert lamp.max() > 0.9
+        driven.step(Action(acceleration=-1.0, steering=0.0))
+        changes += dict(driven.lights) != before
+        before = dict(driven.lights)
+    assert changes >= 1
+
+
 def test_full_throttle_off_the_street_is_noticed(driven):
     found = []
     for _ in range(150):
