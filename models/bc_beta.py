@@ -79,7 +79,11 @@ class BcBetaLearner(Learner):
         settings = self.config.beta
         state = drop_previous_action(batch.state, self.config.network.state_dropout, generator)
         distribution = self.distribution(batch.bev, state)
-        labels = unit_from_action(batch.actions, label_clamp=settings.label_clamp)
+        actions = batch.actions
+        if settings.label_noise > 0:
+            noise = torch.randn(actions.shape, generator=generator, device=actions.device)
+            actions = actions + settings.label_noise * noise
+        labels = unit_from_action(actions, label_clamp=settings.label_clamp)
         losses = -distribution.log_prob(labels).sum(dim=1)  # (B,)
         if settings.entropy_bonus > 0:
             losses = losses - settings.entropy_bonus * distribution.entropy().sum(dim=1)

@@ -116,3 +116,21 @@ def test_samples_repeat_with_the_generator_and_have_the_mean_of_the_distribution
     assert not torch.equal(draws[0], draws[2])
     mean = 2 * learner.distribution(batch.bev[:1], batch.state[:1]).mean[0] - 1
     torch.testing.assert_close(draws[0].mean(dim=0), mean, rtol=0, atol=0.1)
+
+
+def test_label_noise_bounds_the_concentration_that_one_repeated_label_asks_for(constant_learner):
+    labels = torch.zeros(256, 2)
+    spread = {}
+    for noise in (0.0, 0.2):
+        learner = constant_learner(label_noise=noise, beta_offset=1)
+        generator = torch.Generator().manual_seed(0)
+        optimiser = torch.optim.Adam(learner.parameters(), 1e-2)
+        for _ in range(150):
+            optimiser.zero_grad()
+            learner.loss(looks_alike(labels), weights=None, generator=generator).backward()
+            optimiser.step()
+        with torch.no_grad():
+            spread[noise] = learner.distribution(*looks_alike(labels)[:2]).stddev
+    # Noise of 0.2 in [-1, 1] is 0.1 in [0, 1].
+    torch.testing.assert_close(spread[0.2][0], torch.full((2,), 0.1), atol=0.02, rtol=0.0)
+    assert torch.all(spread[0.0] < 0.5 * spread[0.2])
