@@ -73,7 +73,7 @@ def test_loss_is_finite_where_softplus_underflows(constant_learner, generator):
 
 
 def test_weights_multiply_the_losses(constant_learner, generator):
-    learner = constant_learner()
+    learner = constant_learner(label_noise=0.0)
     batch = looks_alike(torch.tensor([[0.5, 0.1], [-0.8, 0.9]]))
     single = [
         learner.loss(Batch(*(x[[i]] for x in batch)), weights=None, generator=generator)
