@@ -1,4 +1,7 @@
-"""Let policies drive a town with the same seeds and print a table: mean and spread over the seeds.
+"""Let policies drive a town with the same seeds and print a table: mean and standard deviation over the seeds.
+
+A drive is clean that had no collision, never left the road and went at least 100 m. A branch is one way through one
+junction.
 
 Example: python scripts/compare_policies.py pid runs/bc-beta runs/ibc runs/da-ibc --out drives/comparison
 """
@@ -25,6 +28,8 @@ COLUMNS = (
     "stuck_s",
     "score",
 )
+LEAST_DISTANCE = 100.0
+"""A drive shorter than this is not clean, it is no drive [m]."""
 
 
 def drive_once(job: tuple[str, str | None, str, int, int, Path]) -> DriveSummary:
@@ -36,16 +41,19 @@ def drive_once(job: tuple[str, str | None, str, int, int, Path]) -> DriveSummary
     return report.write_drive(episode, town, folder)
 
 
-def as_row(name: str, drives: list[DriveSummary]) -> str:
+def as_row(name: str, drives: list[DriveSummary], num_branches: int) -> str:
     """One line of the table, in Markdown."""
-    is_clean = [drive.collisions == 0 and drive.off_road_s == 0 for drive in drives]
-    branches = [len(drive.branches_taken) for drive in drives]
     cells = [name]
     for column in COLUMNS:
         values = [float(getattr(drive, column)) for drive in drives]
         spread = statistics.stdev(values) if len(values) > 1 else 0.0
         cells.append(f"{statistics.mean(values):.1f} ± {spread:.1f}")
-    cells += [f"{statistics.mean(branches):.1f}", f"{sum(is_clean)} of {len(drives)}"]
+    taken = {branch for drive in drives for branch in drive.branches_taken}
+    is_clean = [
+        drive.distance_m >= LEAST_DISTANCE and drive.collisions == 0 and drive.off_road_s == 0
+        for drive in drives
+    ]
+    cells += [f"{len(taken)} of {num_branches}", f"{sum(is_clean)} of {len(drives)}"]
     return f"| {' | '.join(cells)} |"
 
 
@@ -76,14 +84,16 @@ def main(
     ]
     for job in plan:
         report.require_new(job[-1])
-    print(f"| policy | {' | '.join(COLUMNS)} | branches | no collision, never off road |")
+    print(f"| policy | {' | '.join(COLUMNS)} | branches, all seeds | clean drives |")
     print(f"|{'---|' * (len(COLUMNS) + 3)}")
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(jobs, mp_context=context) as pool:
         drives = list(pool.map(drive_once, plan))
+    lanes = library.load(town_name).lanes.values()
+    num_branches = sum(lane.junction is not None for lane in lanes)
     for index, policy in enumerate(policies):
         of_policy = drives[index * num_seeds : (index + 1) * num_seeds]
-        print(as_row(Path(policy).name, of_policy))
+        print(as_row(Path(policy).name, of_policy, num_branches))
 
 
 if __name__ == "__main__":
