@@ -64,7 +64,7 @@ def read_json(kind: type[Config], path: Path) -> Config:
     """
     try:
         values = json.loads(path.read_text())
-    except (OSError, json.JSONDecodeError) as error:
+    except (OSError, ValueError) as error:  # no JSON, or no text at all
         raise ConfigError(
             f"Cannot read settings from '{path}': {error}. Expected a JSON object."
         ) from error
@@ -129,13 +129,11 @@ class SimulationConfig:
         timestep: Length of one physics step [s].
         control_interval: Time between two decisions [s].
         car_update_interval: Time between two updates of tyre, brake and drag parameters [s].
-        settle_time: Time that a new car is given to come to rest on its springs [s].
     """
 
     timestep: float = 0.005
     control_interval: float = 0.1
     car_update_interval: float = 0.02
-    settle_time: float = 1.0
 
     def __post_init__(self) -> None:
         for longer, shorter in (
@@ -196,7 +194,7 @@ class PidConfig:
         stop_gap: Distance between the nose and the stop line at rest [m].
         recovery_offset: Farther from the route than this, the expert slows down to come back [m].
         recovery_speed: Speed until it is back [m/s].
-        late_braking: A light that turns yellow is passed when stopping would need more than this [m/s2].
+        late_braking: A light that changes too late is passed when stopping would need more than this [m/s2].
     """
 
     target_speed: float = 6.0

@@ -163,7 +163,12 @@ def load_state(folder: Path) -> RunState:
 def _read_text(path: Path) -> str:
     if not path.is_file():
         raise CheckpointError(_missing(path))
-    return path.read_text()
+    try:
+        return path.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        raise CheckpointError(
+            f"Cannot read '{path}': {error}. Expected text; train again."
+        ) from error
 
 
 def _missing(path: Path) -> str:

@@ -38,7 +38,7 @@ def standard(method: Method) -> LearnerConfig:
         method: "bc-beta", "ibc" or "da-ibc".
 
     Returns:
-        A thirtieth of the paper's steps at eighty times its step size, blind to the previous action, with the energy
+        A thirtieth of the paper's steps at thirty to eighty times its step size, blind to the previous action, with the energy
         corrected for its negatives and sampled exactly.
     """
     return _effective(method, epochs=12, negatives=128)

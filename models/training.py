@@ -57,7 +57,9 @@ def fit(
     history: list[EpochReport] = []
     if resume:
         history = run.resume(folder)
-    elif folder is not None and (folder / checkpoint.TRAINING).exists():
+        assert folder is not None, "resume() refuses it"
+        run.save(folder, history)  # an interruption may have come between the files of a checkpoint
+    elif folder is not None and (folder / checkpoint.STATE).exists():
         raise CheckpointError(
             f"'{folder}' holds a training run already. Resume it, or train into another folder."
         )
@@ -181,4 +183,19 @@ class _Run:
         if (seed := checkpoint.load_state(folder).seed) != self.seed:
             raise CheckpointError(f"'{folder}' was trained with seed {seed}, not {self.seed}.")
         self.state.restore(tensors)
-        return from_lines((folder / checkpoint.METRICS).read_text())[:epoch]
+        return _read_history(folder / checkpoint.METRICS, epoch)
+
+
+def _read_history(path: Path, epoch: int) -> list[EpochReport]:
+    """Read the reports of the complete epochs of a run."""
+    try:
+        history = from_lines(path.read_text())[:epoch]
+    except (OSError, ValueError, TypeError) as error:
+        raise CheckpointError(
+            f"Cannot read '{path}': {error}. Expected one line of JSON an epoch; train again."
+        ) from error
+    if len(history) != epoch:
+        raise CheckpointError(
+            f"'{path}' tells of {len(history)} epochs, the checkpoint beside it of {epoch}; train again."
+        )
+    return history

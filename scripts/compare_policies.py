@@ -61,7 +61,7 @@ def as_row(name: str, drives: list[DriveSummary], num_branches: int) -> str:
 @click.argument("policies", nargs=-1, required=True)
 @click.option("--town", "town_name", default="town02", show_default=True)
 @click.option("--steps", "num_steps", default=3000, show_default=True)
-@click.option("--seeds", "num_seeds", default=5, show_default=True, help="Seeds 0 to this.")
+@click.option("--seeds", "num_seeds", default=5, show_default=True, help="Seeds 0, 1, ...")
 @click.option("--preset", help="How trained policies choose their actions.")
 @click.option("--jobs", default=os.cpu_count(), show_default=True, help="Drives at a time.")
 @click.option("--out", type=click.Path(path_type=Path), default=Path("drives/comparison"))

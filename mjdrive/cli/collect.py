@@ -16,7 +16,7 @@ import rich_click as click
 )
 @click.option(
     "--noise",
-    type=click.FloatRange(0.0, 2.5),
+    type=click.FloatRange(0.0, 2.0),
     metavar="SCALE",
     help="Scale of the disturbances: 0 drives cleanly, 1 is the standard. The clean action stays the label.",
 )
@@ -24,7 +24,7 @@ import rich_click as click
     "--seed",
     default=0,
     show_default=True,
-    type=click.IntRange(min=0),
+    type=click.IntRange(0, 2**32 - 1),
     help="Same seed, same files.",
 )
 @click.option(

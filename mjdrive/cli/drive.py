@@ -33,7 +33,7 @@ DRIVES = Path("drives")
     "--seed",
     default=0,
     show_default=True,
-    type=click.IntRange(min=0),
+    type=click.IntRange(0, 2**32 - 1),
     help="Same seed, same drive.",
 )
 @click.option(

@@ -35,10 +35,16 @@ class MjdriveGroup(click.RichGroup):
         except MjdriveError as error:
             click.echo(f"Error: {' '.join(str(error).split())}", err=True)
             ctx.exit(EXIT_MISTAKE)
+        except OSError as error:
+            # A folder that cannot be made or written to is the user's to mend.
+            click.echo(f"Error: {error}. Expected a place that can be written to.", err=True)
+            ctx.exit(EXIT_MISTAKE)
         except KeyboardInterrupt:
             # Every file is written whole or not at all, so there is nothing to clean up.
             click.echo(
-                "\nInterrupted. What is finished is kept; run the same command to go on.", err=True
+                "\nInterrupted. Files are whole: `collect` goes on when it is run again without --overwrite, "
+                "`train` with --resume.",
+                err=True,
             )
             ctx.exit(EXIT_INTERRUPTED)
 

@@ -60,4 +60,4 @@ def load(run: Path, *, preset: str | None = None) -> Pilot:
         raise RunError(str(error)) from error
     if preset is not None:
         learner.config = acting_settings(learner.config, preset=preset)
-    return Pilot(learner, name=run.name)
+    return Pilot(learner, name=run.resolve().name)

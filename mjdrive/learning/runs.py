@@ -63,7 +63,7 @@ def require_free(run: Path) -> None:
     Raises:
         RunError: If the folder holds one.
     """
-    if is_run(run) or (run / checkpoint.TRAINING).exists():
+    if is_run(run):
         raise RunError(
             f"'{run}' holds a training run already. Go on with --resume, replace it with --overwrite, "
             f"or give another folder with --out."

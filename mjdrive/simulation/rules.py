@@ -1,7 +1,7 @@
 """The rules of a drive: red lights, collisions, kerbs and leaving the road.
 
 Red lights follow the Leaderboard 1.0 criterion (docs/decisions.md); what counts as off the road is stricter than there: the
-centre of the car outside every driving lane, where the Leaderboard allows 1.3 m beyond the lane.
+centre of the car outside every driving lane and the gaps between the lanes of a junction, where the Leaderboard allows 1.3 m beyond the lane.
 """
 
 from collections.abc import Iterable, Mapping
@@ -45,7 +45,7 @@ class Rules:
         """Forget the drive so far."""
         self._last_light_run: str | None = None
         self._was_on_lane = True
-        self._last_hit: dict[str, tuple[float, float, float]] = {}
+        self._last_hit: dict[tuple[InfractionKind, str], tuple[float, float, float]] = {}
 
     def on_lane(self, vehicle: VehicleState) -> bool:
         """Whether the centre of the car is on a driving lane."""
@@ -75,7 +75,7 @@ class Rules:
         red_light = self._red_light_run(vehicle, lights)
         if red_light is not None:
             found.append((InfractionKind.RED_LIGHT, red_light))
-        found += [hit for hit in hits if self._is_new_hit(hit[1], time, vehicle)]
+        found += [hit for hit in hits if self._is_new_hit(hit, time, vehicle)]
         is_on_lane = self.on_lane(vehicle)
         if self._was_on_lane and not is_on_lane:
             found.append((InfractionKind.OFF_ROAD, ""))
@@ -117,10 +117,12 @@ class Rules:
             shapely.LineString(watched).intersects(shapely.LineString([near_tail, far_tail]))
         )
 
-    def _is_new_hit(self, name: str, time: float, vehicle: VehicleState) -> bool:
+    def _is_new_hit(
+        self, hit: tuple[InfractionKind, str], time: float, vehicle: VehicleState
+    ) -> bool:
         """Whether a touch is a new event: not the same thing within 5 s or 3 m of the last touch."""
-        before = self._last_hit.get(name)
-        self._last_hit[name] = (time, vehicle.x, vehicle.y)
+        before = self._last_hit.get(hit)
+        self._last_hit[hit] = (time, vehicle.x, vehicle.y)
         if before is None:
             return True
         moved = np.hypot(vehicle.x - before[1], vehicle.y - before[2])

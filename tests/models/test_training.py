@@ -154,3 +154,30 @@ def test_no_demonstrations_and_a_loss_without_bounds_are_refused(small_config, b
     broken = batch._replace(state=torch.full((10, 3), torch.nan))
     with pytest.raises(TrainingError, match="The loss is nan at step 0 of epoch 1"):
         train(config, TensorDemonstrations(broken))
+
+
+def test_a_save_broken_off_between_its_files_is_mended_by_resuming(
+    small_config, demonstrations, tmp_path
+):
+    config = small_config("bc-beta")
+    with pytest.raises(StoppedError):
+        train(config, demonstrations, folder=tmp_path, on_epoch=stop)
+    files = (checkpoint.MODEL, checkpoint.STATE)
+    first_epoch = {name: (tmp_path / name).read_bytes() for name in files}
+    train(config, demonstrations, folder=tmp_path, resume=True)
+    whole = {name: (tmp_path / name).read_bytes() for name in files}
+    assert whole != first_epoch
+    for name in files:
+        (tmp_path / name).write_bytes(first_epoch[name])
+    train(config, demonstrations, folder=tmp_path, resume=True)
+    assert {name: (tmp_path / name).read_bytes() for name in files} == whole
+    (tmp_path / checkpoint.METRICS).write_text("not JSON\n")
+    with pytest.raises(CheckpointError, match="Expected one line of JSON an epoch"):
+        train(config, demonstrations, folder=tmp_path, resume=True)
+
+
+def test_leftovers_of_a_first_epoch_broken_off_are_no_run(small_config, demonstrations, tmp_path):
+    config = small_config("bc-beta", epochs=1)
+    (tmp_path / checkpoint.TRAINING).write_bytes(b"cut")
+    train(config, demonstrations, folder=tmp_path)
+    assert checkpoint.load_state(tmp_path).epoch == 1

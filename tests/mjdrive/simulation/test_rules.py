@@ -111,3 +111,11 @@ def test_reset_forgets_the_light_that_was_run(town):
     drive(watch, np.arange(40.0, 60.0, 0.5))
     watch.reset()
     assert kinds(drive(watch, np.arange(40.0, 60.0, 0.5))) == [InfractionKind.RED_LIGHT]
+
+
+def test_a_tyre_on_a_kerb_does_not_hide_the_body_on_it(town):
+    watch = rules(town)
+    tyre, body = (InfractionKind.KERB, "kerb"), (InfractionKind.COLLISION, "kerb")
+    found = drive(watch, [20.0], signal=Signal.GREEN, hits=[tyre])
+    found += drive(watch, [20.5], signal=Signal.GREEN, hits=[tyre, body])
+    assert kinds(found) == [InfractionKind.KERB, InfractionKind.COLLISION]
