@@ -174,5 +174,6 @@ def _read_text(path: Path) -> str:
 def _missing(path: Path) -> str:
     if not path.parent.is_dir():
         return f"There is no run folder '{path.parent}'. Train first, or give the folder of a run."
-    found = ", ".join(sorted(entry.name for entry in path.parent.iterdir())) or "nothing"
+    names = sorted(entry.name for entry in path.parent.iterdir())
+    found = ", ".join([*names[:5], "..."] if len(names) > 5 else names) or "nothing"
     return f"'{path.parent}' is no complete training run: expected {path.name}, found {found}."
