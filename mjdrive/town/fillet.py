@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from mjdrive.errors import TownFormatError
-from mjdrive.town.road_map import Piece
+from mjdrive.town.road_shapes import Arc, Line, Piece
 
 _KINK = 1e-4
 """Change of heading that counts as none [rad]."""
@@ -110,7 +110,7 @@ def _chain(start: Pose, end: Pose, stretches: list[tuple[float, float]]) -> tupl
                 *position,
                 round(float(heading), 12),
                 round(float(length), 9),
-                round(float(curvature), 12),
+                Arc(round(float(curvature), 12)) if curvature else Line(),
             )
         )
         middle = heading + 0.5 * curvature * length

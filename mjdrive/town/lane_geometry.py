@@ -6,7 +6,8 @@ from itertools import pairwise
 import numpy as np
 from jaxtyping import Float
 
-from mjdrive.town.road_map import Cubic, Piece, Road
+from mjdrive.town.road_map import Road
+from mjdrive.town.road_shapes import Arc, Cubic, Piece
 
 LARGEST_GAP = 0.5
 """Largest distance between two points of a centre line [m]."""
@@ -49,10 +50,11 @@ def reference_line(
     """
     starts = np.array([piece.s for piece in pieces])
     index = np.clip(np.searchsorted(starts, s + 1e-9, side="right") - 1, 0, None)
-    x, y, heading, curvature = (
+    x, y, heading = (
         np.array([getattr(piece, name) for piece in pieces])[index]
-        for name in ("x", "y", "heading", "curvature")
+        for name in ("x", "y", "heading")
     )
+    curvature = np.array([curvature_of(piece) for piece in pieces])[index]
     ds = s - starts[index]
     # A chord of an arc: its length is ds sinc(angle / 2), its direction the mean heading.
     half_angle = 0.5 * curvature * ds
@@ -61,6 +63,11 @@ def reference_line(
         [x + chord * np.cos(heading + half_angle), y + chord * np.sin(heading + half_angle)], axis=1
     )
     return points, heading + 2.0 * half_angle
+
+
+def curvature_of(piece: Piece) -> float:
+    """Curvature of a line or an arc [1/m]."""
+    return piece.shape.curvature if isinstance(piece.shape, Arc) else 0.0
 
 
 def section_bounds(road: Road, section_index: int) -> tuple[float, float]:
@@ -105,7 +112,7 @@ def _sample(road: Road, section_index: int) -> Float[np.ndarray, " N"]:
             continue
         piece = max((p for p in road.pieces if p.s <= 0.5 * (left + right)), key=lambda p: p.s)
         gap = LARGEST_GAP
-        if piece.curvature:
-            gap = min(gap, np.sqrt(8.0 * CHORD_ERROR / abs(piece.curvature)))
+        if curvature := curvature_of(piece):
+            gap = min(gap, np.sqrt(8.0 * CHORD_ERROR / abs(curvature)))
         stations.append(np.linspace(left, right, int(np.ceil((right - left) / gap)) + 1)[1:])
     return np.concatenate(stations)

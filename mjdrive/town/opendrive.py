@@ -9,18 +9,16 @@ from lxml import etree
 from mjdrive.errors import TownFormatError
 from mjdrive.town.road_map import (
     Connection,
-    Cubic,
     Junction,
     LaneRecord,
     LaneSection,
-    Piece,
     Road,
     RoadLink,
     RoadMap,
-    RoadMark,
     SignalRecord,
     SignalReference,
 )
+from mjdrive.town.road_shapes import Arc, Cubic, Line, Piece, RoadMark
 from mjdrive.town.xml_fields import Element, XmlFields
 
 _FLAT = 1e-6
@@ -140,11 +138,11 @@ class _Reader(XmlFields):
         if len(shapes) != 1 or shapes[0].tag not in ("line", "arc"):
             found = ", ".join(f"<{shape.tag}>" for shape in shapes) or "nothing"
             self.fail(element, f"holds {found}; mjdrive drives on <line> and <arc>.")
-        curvature = self.number(shapes[0], "curvature") if shapes[0].tag == "arc" else 0.0
+        shape = Arc(self.number(shapes[0], "curvature")) if shapes[0].tag == "arc" else Line()
         s, x, y, heading, length = (
             self.number(element, name) for name in ("s", "x", "y", "hdg", "length")
         )
-        return Piece(s, x, y, heading, length, curvature)
+        return Piece(s, x, y, heading, length, shape)
 
     def cubic(self, element: Element, start: str) -> Cubic:
         return Cubic(*(self.number(element, name) for name in (start, "a", "b", "c", "d")))
@@ -169,7 +167,6 @@ class _Reader(XmlFields):
             for e in element.iterfind("link/*")
             if isinstance(e.tag, str)
         }
-        mark = element.find("roadMark")
         if (border := element.find("border")) is not None:
             self.fail(border, "is not read; give lanes a <width>.")
         lane = LaneRecord(
@@ -178,7 +175,7 @@ class _Reader(XmlFields):
             widths=tuple(self.cubic(e, "sOffset") for e in element.iterfind("width")),
             predecessor=ends.get("predecessor"),
             successor=ends.get("successor"),
-            mark=RoadMark() if mark is None else self.mark(mark),
+            marks=tuple(self.mark(e) for e in element.iterfind("roadMark")),
         )
         if lane.id and not lane.widths:
             self.fail(element, "has no <width>.")
@@ -186,7 +183,8 @@ class _Reader(XmlFields):
 
     def mark(self, element: Element) -> RoadMark:
         width = self.number(element, "width") if "width" in element.attrib else 0.0
-        return RoadMark(self.text(element, "type"), element.get("color", "standard"), width)
+        start = self.number(element, "sOffset")
+        return RoadMark(self.text(element, "type"), element.get("color", "standard"), width, start)
 
     def link(self, element: Element | None) -> RoadLink | None:
         if element is None:

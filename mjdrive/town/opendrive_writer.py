@@ -3,7 +3,8 @@
 from lxml import etree
 
 from mjdrive.town.lane_geometry import lane_centre
-from mjdrive.town.road_map import Cubic, Junction, LaneRecord, Road, RoadLink, RoadMap, SignalRecord
+from mjdrive.town.road_map import Junction, LaneRecord, Road, RoadLink, RoadMap, SignalRecord
+from mjdrive.town.road_shapes import Arc, Cubic, Line, ParamPoly3, Poly3, Spiral
 from mjdrive.town.xml_fields import Element
 
 _SIDES = ("left", "center", "right")
@@ -87,10 +88,19 @@ def _road(root: Element, road: Road) -> None:
             hdg=piece.heading,
             length=piece.length,
         )
-        if piece.curvature:
-            _add(geometry, "arc", curvature=piece.curvature)
-        else:
-            _add(geometry, "line")
+        match piece.shape:
+            case Line():
+                _add(geometry, "line")
+            case Arc(curvature):
+                _add(geometry, "arc", curvature=curvature)
+            case Spiral(start, end):
+                _add(geometry, "spiral", curvStart=start, curvEnd=end)
+            case Poly3(a, b, c, d):
+                _add(geometry, "poly3", a=a, b=b, c=c, d=d)
+            case ParamPoly3(u, v, is_normalized):
+                names = [name + axis for axis in "UV" for name in "abcd"]
+                span = "normalized" if is_normalized else "arcLength"
+                _add(geometry, "paramPoly3", **dict(zip(names, u + v, strict=True)), pRange=span)
     _lanes(_add(element, "lanes"), road)
     if road.signals or road.references:
         signals = _add(element, "signals")
@@ -131,8 +141,9 @@ def _lane(parent: Element, lane: LaneRecord) -> None:
                 _add(link, tag, id=number)
     for width in lane.widths:
         _cubic(element, "width", "sOffset", width)
-    mark = {"type": lane.mark.type, "weight": "standard", "color": lane.mark.color}
-    _add(element, "roadMark", sOffset=0.0, **mark, width=lane.mark.width, laneChange="none")
+    for mark in lane.marks:
+        kind = {"type": mark.type, "weight": "standard", "color": mark.color}
+        _add(element, "roadMark", sOffset=mark.start, **kind, width=mark.width, laneChange="none")
 
 
 def _cubic(parent: Element, tag: str, start: str, cubic: Cubic) -> None:

@@ -7,60 +7,7 @@ Reference:
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-
-@dataclass(frozen=True, slots=True)
-class Piece:
-    """A stretch of a reference line with constant curvature: a line or an arc.
-
-    Attributes:
-        s: Where the piece starts on its road [m].
-        x: Start, world frame [m].
-        y: Start, world frame [m].
-        heading: Direction at the start [rad].
-        length: Arc length [m].
-        curvature: Positive to the left, 0 for a line [1/m].
-    """
-
-    s: float
-    x: float
-    y: float
-    heading: float
-    length: float
-    curvature: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Cubic:
-    """A cubic polynomial a + b ds + c ds^2 + d ds^3 that holds from `start` to the next one.
-
-    Attributes:
-        start: Where it begins [m]; on its road (lane offset) or in its lane section (width).
-        a: Value at the start [m].
-        b: First order [-].
-        c: Second order [1/m].
-        d: Third order [1/m^2].
-    """
-
-    start: float
-    a: float
-    b: float = 0.0
-    c: float = 0.0
-    d: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class RoadMark:
-    """The mark along the outer edge of a lane (along the middle for lane 0).
-
-    Attributes:
-        type: "none", "broken", "solid", "curb".
-        color: "standard", "white", "yellow".
-        width: Width of the mark [m].
-    """
-
-    type: str = "none"
-    color: str = "standard"
-    width: float = 0.0
+from mjdrive.town.road_shapes import Cubic, Piece, RoadMark
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,11 +16,13 @@ class LaneRecord:
 
     Attributes:
         id: 0 in the middle, positive to the left, negative to the right.
-        type: "driving", "shoulder", "sidewalk", "none".
-        widths: Width along the section; empty for lane 0.
+        type: "driving", "shoulder", "sidewalk", "none" and others.
+        widths: Width along the section; empty for lane 0 and where `borders` are given.
         predecessor: Lane id at the start, on what lies before.
         successor: Lane id at the end, on what lies behind.
-        mark: Mark along the outer edge.
+        marks: Marks along the outer edge, in order of their starts.
+        borders: Outer edge from lane 0, positive to the left; used where there are no `widths`.
+        direction: Travel: "standard" with the rule of the road, "reversed" against it, or "both".
     """
 
     id: int
@@ -81,7 +30,9 @@ class LaneRecord:
     widths: tuple[Cubic, ...] = ()
     predecessor: int | None = None
     successor: int | None = None
-    mark: RoadMark = RoadMark()
+    marks: tuple[RoadMark, ...] = ()
+    borders: tuple[Cubic, ...] = ()
+    direction: str = "standard"
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,6 +46,10 @@ class LaneSection:
 
     s: float
     lanes: tuple[LaneRecord, ...]
+
+    def lane(self, number: int) -> LaneRecord | None:
+        """The lane of that number, or None."""
+        return next((lane for lane in self.lanes if lane.id == number), None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,17 +100,46 @@ class SignalRecord:
 
 @dataclass(frozen=True, slots=True)
 class SignalReference:
-    """Lanes of a connecting road that a signal elsewhere holds for.
+    """Lanes of a road that a signal beside another road holds for.
 
     Attributes:
         id: Id of the signal.
         from_lane: Smallest lane id.
         to_lane: Largest lane id.
+        s: Where it holds along this road [m].
+        orientation: Traffic that it is for: "+" along s, "-" against it, "none" both.
     """
 
     id: str
     from_lane: int
     to_lane: int
+    s: float = 0.0
+    orientation: str = "none"
+
+
+@dataclass(frozen=True, slots=True)
+class ObjectRecord:
+    """A thing beside or on a road.
+
+    Attributes:
+        id: Unique in its road.
+        name: Free text.
+        type: "building", "tree", "pole", "barrier", "crosswalk", "parkingSpace" and others.
+        s: Where it is along the road [m].
+        t: Where it is across the road, positive to the left [m].
+        heading: Of its own frame against the road [rad].
+        outline: Corners in world frame, (x, y) each, counter-clockwise [m].
+        height: Above the ground [m].
+    """
+
+    id: str
+    name: str
+    type: str
+    s: float
+    t: float
+    heading: float
+    outline: tuple[tuple[float, float], ...]
+    height: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,6 +158,8 @@ class Road:
         successor: What lies behind the end.
         signals: Signals beside the road.
         references: Signals of other roads that hold here.
+        objects: Things beside and on the road.
+        drives_on_left: Whether traffic keeps to the left.
     """
 
     id: str
@@ -187,6 +173,8 @@ class Road:
     successor: RoadLink | None = None
     signals: tuple[SignalRecord, ...] = ()
     references: tuple[SignalReference, ...] = ()
+    objects: tuple[ObjectRecord, ...] = ()
+    drives_on_left: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,7 +184,7 @@ class Connection:
     Attributes:
         id: Unique in the junction.
         incoming: Road that leads in.
-        connecting: Road that leads across.
+        connecting: Road that leads across; in a direct junction the road that follows at once.
         contact: Which end of the connecting road meets the incoming one, "start" or "end".
         lane_links: Pairs of lane ids, on the incoming and on the connecting road.
     """

@@ -10,17 +10,15 @@ from mjdrive.town.fillet import Pose, extend, join, length_of
 from mjdrive.town.network import TRAFFIC_LIGHT_TYPE
 from mjdrive.town.road_map import (
     Connection,
-    Cubic,
     Junction,
     LaneRecord,
     LaneSection,
-    Piece,
     Road,
     RoadLink,
     RoadMap,
-    RoadMark,
     SignalRecord,
 )
+from mjdrive.town.road_shapes import Cubic, Piece, RoadMark
 from mjdrive.town.street_plan import CornerPlan, CrossSection, JunctionPlan, LightPlan, StreetPlan
 
 _CENTRE_MARK = RoadMark("broken", "yellow", 0.125)
@@ -137,7 +135,7 @@ def _two_way(
         return -number if link.contact == side else number
 
     outer = (("driving", widths.lane), ("shoulder", widths.shoulder), ("sidewalk", widths.sidewalk))
-    lanes = [LaneRecord(0, "none", mark=_CENTRE_MARK)]
+    lanes = [LaneRecord(0, "none", marks=(_CENTRE_MARK,))]
     for side in (1, -1):
         for rank, (kind, width) in enumerate(outer, start=1):
             number = side * rank
@@ -148,7 +146,7 @@ def _two_way(
                     widths=(Cubic(0.0, width),),
                     predecessor=linked(number, before, "start"),
                     successor=linked(number, behind, "end"),
-                    mark=_KERB_MARK if kind == "shoulder" else RoadMark(),
+                    marks=(_KERB_MARK,) if kind == "shoulder" else (),
                 )
             )
     lanes.sort(key=lambda lane: -lane.id)

@@ -10,6 +10,8 @@ import pytest
 
 import mjdrive.config
 import mjdrive.datatypes
+import mjdrive.datatypes.driving
+import mjdrive.datatypes.town
 import models.config
 
 UNITS = {
@@ -35,7 +37,7 @@ UNITLESS = {
 
 
 def numeric_dataclasses() -> list[type]:
-    modules = (mjdrive.datatypes, mjdrive.config, models.config)
+    modules = (mjdrive.datatypes.town, mjdrive.datatypes.driving, mjdrive.config, models.config)
     return [
         kind
         for module in modules

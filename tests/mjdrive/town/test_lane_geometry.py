@@ -13,7 +13,8 @@ from mjdrive.town.lane_geometry import (
     reference_line,
     section_bounds,
 )
-from mjdrive.town.road_map import Cubic, LaneRecord, LaneSection, Piece, Road
+from mjdrive.town.road_map import LaneRecord, LaneSection, Road
+from mjdrive.town.road_shapes import Arc, Cubic, Piece
 
 LANES = (
     LaneRecord(1, "driving", (Cubic(0.0, 4.0),)),
@@ -41,7 +42,7 @@ def test_cubics_hold_from_their_start_to_the_next() -> None:
 def test_an_arc_stays_on_its_circle(
     radius: float, angle: float, heading: float, side: float
 ) -> None:
-    piece = Piece(0.0, 10.0, -20.0, heading, radius * angle, side / radius)
+    piece = Piece(0.0, 10.0, -20.0, heading, radius * angle, Arc(side / radius))
     points, headings = reference_line([piece], np.linspace(0.0, piece.length, 50))
     centre = np.array([10.0, -20.0]) + side * radius * np.array([-np.sin(heading), np.cos(heading)])
     np.testing.assert_allclose(np.hypot(*(points - centre).T), radius, rtol=1e-9)
@@ -50,7 +51,7 @@ def test_an_arc_stays_on_its_circle(
 
 @pytest.mark.parametrize("radius", [5.0, 10.0, 80.0])
 def test_lanes_beside_an_arc_are_concentric_and_dense(radius: float) -> None:
-    road = _road(Piece(0.0, 0.0, 0.0, 0.0, radius * np.pi / 2, 1.0 / radius))
+    road = _road(Piece(0.0, 0.0, 0.0, 0.0, radius * np.pi / 2, Arc(1.0 / radius)))
     for lane, lane_radius in ((1, radius - 2.0), (-1, radius + 2.0)):
         points, width = lane_centre(road, 0, lane)
         np.testing.assert_allclose(

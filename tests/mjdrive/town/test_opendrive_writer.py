@@ -3,7 +3,8 @@ from dataclasses import replace
 from lxml import etree
 
 from mjdrive.town import opendrive, opendrive_writer
-from mjdrive.town.road_map import Cubic, RoadMap, SignalReference
+from mjdrive.town.road_map import RoadMap, SignalReference
+from mjdrive.town.road_shapes import Cubic
 
 
 def test_the_same_map_gives_the_same_bytes(road_map: RoadMap, map_bytes: bytes) -> None:

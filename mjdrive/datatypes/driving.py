@@ -1,35 +1,17 @@
-"""The nouns. SI units throughout; every array is read-only once it is inside one of these.
-
-World frame: x east, y north, z up (OpenDRIVE axes; CARLA's y is minus ours). Vehicle frame: x forward, y left, z up
-(ISO 8855), origin on the ground under the centre of the rear axle. Yaw is counter-clockwise from world +x, in (-pi, pi].
-"""
+"""Nouns of a drive: what the car does, what policies see, and what is recorded."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from enum import IntEnum
 from typing import Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float, UInt8
 
+from mjdrive.datatypes.arrays import freeze_arrays
+from mjdrive.datatypes.town import Route, Signal
+
 View_contra = TypeVar("View_contra", contravariant=True)
-
-
-class Signal(IntEnum):
-    """What a traffic light shows."""
-
-    GREEN = 0
-    YELLOW = 1
-    RED = 2
-
-
-class Move(IntEnum):
-    """Which way a lane leads through a junction; `FOLLOW` outside junctions."""
-
-    FOLLOW = 0
-    LEFT = 1
-    STRAIGHT = 2
-    RIGHT = 3
 
 
 class InfractionKind(IntEnum):
@@ -39,116 +21,8 @@ class InfractionKind(IntEnum):
     COLLISION = 1
     OFF_ROAD = 2
     KERB = 3
-
-
-def _freeze_arrays(instance: object) -> None:
-    """Make read-only copies of the array fields of a frozen dataclass."""
-    for field in fields(instance):  # type: ignore[arg-type]
-        value = getattr(instance, field.name)
-        if isinstance(value, np.ndarray) and value.flags.writeable:
-            frozen = value.copy()
-            frozen.flags.writeable = False
-            object.__setattr__(instance, field.name, frozen)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Lane:
-    """One driving lane, in its direction of travel.
-
-    Attributes:
-        id: Unique name, "road/section/lane" of the OpenDRIVE map.
-        centerline: Centre line in the world frame, shape (N, 2) [m], ordered along travel.
-        width: Mean width [m].
-        successors: Names of the lanes that follow.
-        junction: Name of the junction that the lane crosses, or None outside junctions.
-        light: Name of the traffic light at the end of the lane, or None.
-        move: Which way the lane leads through its junction.
-    """
-
-    id: str
-    centerline: Float[np.ndarray, "N 2"]
-    width: float
-    successors: tuple[str, ...]
-    junction: str | None
-    light: str | None
-    move: Move = Move.FOLLOW
-
-    def __post_init__(self) -> None:
-        _freeze_arrays(self)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class TrafficLight:
-    """One light: the approach lanes that it stops, and its cycle.
-
-    Attributes:
-        id: Unique name (the OpenDRIVE signal).
-        lane: Name of the approach lane that ends at the stop line.
-        junction: Name of the junction that it guards.
-        stop_line: Left and right end of the stop line across the full lane, world frame, shape (2, 2) [m].
-        yaw: Direction of travel at the stop line [rad].
-        pole: Where the pole stands, world frame, shape (2,) [m].
-        program: One cycle: signals and how long each is shown [s].
-        offset: Time into the cycle at clock zero [s].
-    """
-
-    id: str
-    lane: str
-    junction: str
-    stop_line: Float[np.ndarray, "2 2"]
-    yaw: float
-    pole: Float[np.ndarray, "2"]
-    program: tuple[tuple[Signal, float], ...]
-    offset: float
-
-    def __post_init__(self) -> None:
-        _freeze_arrays(self)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Town:
-    """A road network that can be driven.
-
-    Attributes:
-        name: Name of its folder in assets/towns.
-        lanes: Every driving lane by name.
-        lights: Every traffic light by name.
-        bounds: Smallest x, smallest y, largest x, largest y of the lanes [m].
-        digest: SHA-256 of the map and of town.json, hexadecimal.
-    """
-
-    name: str
-    lanes: Mapping[str, Lane]
-    lights: Mapping[str, TrafficLight]
-    bounds: Float[np.ndarray, "4"]
-    digest: str
-
-    def __post_init__(self) -> None:
-        _freeze_arrays(self)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Route:
-    """A dense path to follow, points 1 m apart (the last gap may be shorter).
-
-    Attributes:
-        lanes: Names of the lanes in order.
-        points: World frame, shape (N, 2) [m].
-        station: Arc length from the start, shape (N,) [m].
-        yaw: Direction of travel, shape (N,) [rad].
-        curvature: Positive to the left, shape (N,) [1/m].
-        lane_index: Index into `lanes` for each point, shape (N,).
-    """
-
-    lanes: tuple[str, ...]
-    points: Float[np.ndarray, "N 2"]
-    station: Float[np.ndarray, " N"]
-    yaw: Float[np.ndarray, " N"]
-    curvature: Float[np.ndarray, " N"]
-    lane_index: np.ndarray
-
-    def __post_init__(self) -> None:
-        _freeze_arrays(self)
+    WRONG_WAY = 4
+    STUCK = 5
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,7 +72,7 @@ class Observation:
     state: Float[np.ndarray, "3"]
 
     def __post_init__(self) -> None:
-        _freeze_arrays(self)
+        freeze_arrays(self)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -276,7 +150,7 @@ class Episode:
     metadata: Mapping[str, str]
 
     def __post_init__(self) -> None:
-        _freeze_arrays(self)
+        freeze_arrays(self)
 
 
 @runtime_checkable
