@@ -23,6 +23,10 @@ class UnknownNameError(MjdriveError):
         super().__init__(" ".join(part for part in parts if part))
 
 
+class NameTakenError(MjdriveError):
+    """A name for something new that something else has already."""
+
+
 class TownFormatError(MjdriveError):
     """A town folder or OpenDRIVE map that cannot be driven as it stands."""
 

@@ -17,6 +17,7 @@ from mjdrive.simulation.contacts import ContactWatch
 from mjdrive.simulation.lamps import set_lamps
 from mjdrive.simulation.rules import Rules
 from mjdrive.town import library, signals
+from mjdrive.town.settings import TownSettings
 from mjdrive.vehicle.car import Car
 from mjdrive.vehicle.engine import require_sane
 from mjdrive.vehicle.parameters import VehicleParameters
@@ -46,13 +47,22 @@ class Simulation:
     Args:
         town: Where to drive.
         config: Time steps.
+        settings: What stands beside the roads; what town.json says if None.
     """
 
-    def __init__(self, town: Town, config: SimulationConfig | None = None) -> None:
+    def __init__(
+        self,
+        town: Town,
+        config: SimulationConfig | None = None,
+        *,
+        settings: TownSettings | None = None,
+    ) -> None:
         self.town = town
         self.config = config or SimulationConfig()
         self.model = scene.build_scene(
-            town, library.load_settings(town.name), timestep=self.config.timestep
+            town,
+            settings or library.load_settings(town.name),
+            timestep=self.config.timestep,
         ).compile()
         self.data = mujoco.MjData(self.model)
         self.car = Car(self.model, self.data)

@@ -1,4 +1,4 @@
-"""Find and load the towns of assets/towns."""
+"""Find and load towns: those that come with mjdrive, and the user's own in the folder towns/."""
 
 import hashlib
 from functools import lru_cache
@@ -14,9 +14,12 @@ from mjdrive.town.settings import TownSettings
 MAP_FILE = "map.xodr"
 SETTINGS_FILE = "town.json"
 
+OWN_TOWNS = Path("towns")
+"""Where imported and generated towns go, beside data/, runs/ and drives/ in the working folder."""
+
 
 def towns_folder() -> Path:
-    """Find the folder of the towns: that of the checkout, or the copy inside an installed package.
+    """Find the folder of the towns that come with mjdrive: in the checkout, or inside an installed package.
 
     Raises:
         TownFormatError: If neither is there.
@@ -32,27 +35,41 @@ def towns_folder() -> Path:
     )
 
 
+def shipped_names() -> tuple[str, ...]:
+    """List the towns that come with mjdrive, in alphabetical order."""
+    return _names_in(towns_folder())
+
+
 def town_names() -> tuple[str, ...]:
-    """List the towns that can be loaded by name, in alphabetical order."""
-    return tuple(sorted(path.parent.name for path in towns_folder().glob(f"*/{MAP_FILE}")))
+    """List the towns that can be loaded by name here, in alphabetical order."""
+    return tuple(sorted({*shipped_names(), *_names_in(OWN_TOWNS)}))
+
+
+def _names_in(folder: Path) -> tuple[str, ...]:
+    names = (path.parent.name for path in folder.glob(f"*/{MAP_FILE}"))
+    return tuple(sorted(name for name in names if not name.startswith(".")))
 
 
 def folder_of(name: str) -> Path:
-    """Find the folder of a town.
+    """Find the folder of a town; a town that comes with mjdrive goes before one of the user's.
 
     Raises:
         UnknownNameError: If there is no town of that name.
     """
-    if name not in town_names():
-        raise UnknownNameError(
-            "town", name, town_names(), hint=f"Towns are folders in '{towns_folder()}'."
-        )
-    return towns_folder() / name
+    for folder in (towns_folder(), OWN_TOWNS):
+        if name in _names_in(folder):
+            return folder / name
+    raise UnknownNameError(
+        "town",
+        name,
+        town_names(),
+        hint=f"Towns are folders in '{towns_folder()}' and in '{OWN_TOWNS}' where you work; "
+        "`mjdrive towns import` makes one from an OpenDRIVE map.",
+    )
 
 
-@lru_cache(maxsize=8)
 def load(name: str) -> Town:
-    """Load a town by name; a second call gives the same object.
+    """Load a town by name; a second call gives the same object while its files are the same.
 
     Args:
         name: One of `town_names()`.
@@ -65,7 +82,19 @@ def load(name: str) -> Town:
         TownFormatError: If its map cannot be driven.
         ConfigError: If its town.json cannot be read.
     """
-    return load_folder(folder_of(name))
+    folder = folder_of(name).resolve()
+    written = [
+        path.stat().st_mtime_ns
+        for path in (folder / MAP_FILE, folder / SETTINGS_FILE)
+        if path.is_file()
+    ]
+    return _load_cached(folder, *written)
+
+
+@lru_cache(maxsize=8)
+def _load_cached(folder: Path, *written: int) -> Town:
+    """Load a folder once for each time that its files were written [ns]."""
+    return load_folder(folder)
 
 
 def load_settings(name: str) -> TownSettings:
@@ -100,4 +129,5 @@ def load_folder(folder: Path) -> Town:
     settings = read_json(TownSettings, paths[1])
     digest = hashlib.sha256(b"\0".join(path.read_bytes() for path in paths)).hexdigest()
     name = folder.resolve().name
-    return build_town(opendrive.read(paths[0]), name=name, timing=settings.lights, digest=digest)
+    road_map = opendrive.read(paths[0])
+    return build_town(road_map, name=name, timing=settings.lights, digest=digest)

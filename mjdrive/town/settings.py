@@ -38,31 +38,51 @@ class SceneryConfig:
     """What the scene generator builds beside the roads.
 
     Attributes:
-        seed: Seed of the buildings [-].
-        sidewalk_width: Width of the sidewalk behind the kerb [m].
+        seed: Seed of houses and trees [-].
+        sidewalk_width: From the kerb to the far edge of the sidewalk, the verge included [m].
+        verge_width: Grass between kerbstone and sidewalk, away from junctions; 0 for none [m].
         building_setback: Distance from the sidewalk to the houses [m].
         building_width: Shortest and longest front of a house [m].
         building_depth: Least and largest depth of a house [m].
         building_height: Lowest and highest house [m].
         building_gap: Smallest and largest gap between neighbours [m].
         pole_height: Height of a light pole [m].
+        tree_spacing: Mean distance between two trees along a verge; 0 for no trees [m].
+        tree_height: Lowest and highest tree [m].
     """
 
     seed: int = 0
     sidewalk_width: float = 4.0
+    verge_width: float = 1.2
     building_setback: float = 2.0
     building_width: tuple[float, float] = (8.0, 22.0)
     building_depth: tuple[float, float] = (8.0, 14.0)
     building_height: tuple[float, float] = (5.0, 18.0)
     building_gap: tuple[float, float] = (2.0, 10.0)
     pole_height: float = 4.5
+    tree_spacing: float = 24.0
+    tree_height: tuple[float, float] = (4.5, 7.5)
 
     def __post_init__(self) -> None:
-        for name in ("building_width", "building_depth", "building_height", "building_gap"):
+        for name in (
+            "building_width",
+            "building_depth",
+            "building_height",
+            "building_gap",
+            "tree_height",
+        ):
             low, high = getattr(self, name)
             require(
                 0.0 < low <= high, f"{name} is {low} to {high} m; expected 0 < least <= largest."
             )
+        for name in ("verge_width", "tree_spacing", "building_setback"):
+            value = getattr(self, name)
+            require(value >= 0.0, f"{name} is {value} m; expected 0 or more.")
+        require(
+            self.verge_width + 1.0 <= self.sidewalk_width,
+            f"sidewalk_width is {self.sidewalk_width} m; expected at least 1 m more than "
+            f"verge_width, which is {self.verge_width} m.",
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,12 +94,14 @@ class TownSettings:
         lights: Light timing of every junction.
         routes: Waypoints (x, y) by route name, world frame [m].
         scenery: What stands beside the roads.
+        flatten: Whether heights and banks of the map are left out; a map that has some is refused otherwise.
     """
 
     description: str = ""
     lights: LightTiming = field(default_factory=LightTiming)
     routes: dict[str, tuple[tuple[float, float], ...]] = field(default_factory=dict)
     scenery: SceneryConfig = field(default_factory=SceneryConfig)
+    flatten: bool = False
 
     def __post_init__(self) -> None:
         for name, waypoints in self.routes.items():

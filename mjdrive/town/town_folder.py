@@ -1,0 +1,105 @@
+"""New town folders: whole, or not there at all."""
+
+import os
+import re
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from mjdrive.config import require, write_json
+from mjdrive.datatypes import Town
+from mjdrive.errors import NameTakenError, RouteError
+from mjdrive.town import library, routing
+from mjdrive.town.settings import TownSettings
+
+NUM_ROUTES = 10
+"""Routes for demonstrations in a new town [-], as many as the paper's Town01 set has."""
+
+ROUTE_LENGTH = 800.0
+"""Their length [m]; the paper's are 811 m on average."""
+
+_NAME = re.compile(r"[a-z][a-z0-9_-]*")
+
+
+@contextmanager
+def new_town_folder(name: str, *, parent: Path = library.OWN_TOWNS) -> Iterator[Path]:
+    """Make the folder of a new town: it takes its place when the block ends, and is gone if the block fails.
+
+    Args:
+        name: Name of the town: a letter, then letters, digits, "-" and "_", all small.
+        parent: Where it will be.
+
+    Yields:
+        A folder of that name in a hidden place beside it, to be filled.
+
+    Raises:
+        ConfigError: If the name is none for a town.
+        NameTakenError: If there is a town of that name, or a folder in its place.
+    """
+    require(
+        _NAME.fullmatch(name) is not None,
+        f"A town cannot be called '{name}'; expected a small letter, then small letters, digits, '-' and '_'.",
+    )
+    require_free(name, parent)
+    parent.mkdir(parents=True, exist_ok=True)
+    hidden = Path(tempfile.mkdtemp(prefix=f".{name}-", dir=parent))
+    try:
+        folder = hidden / name
+        folder.mkdir()
+        yield folder
+        require_free(name, parent)  # somebody else may have been quicker
+        os.rename(folder, parent / name)  # noqa: PTH104  Path.rename replaces an empty folder
+    finally:
+        shutil.rmtree(hidden, ignore_errors=True)
+
+
+def require_free(name: str, parent: Path) -> None:
+    """Refuse the name of a town that is there already.
+
+    Raises:
+        NameTakenError: If there is a town of that name, or a folder in its place.
+    """
+    if name in library.town_names():
+        raise NameTakenError(
+            f"There is a town '{name}' already, in '{library.folder_of(name)}'. Choose another name, or remove "
+            "that folder first."
+        )
+    if (parent / name).exists():
+        raise NameTakenError(
+            f"'{parent / name}' is there already. Choose another name, or remove it first."
+        )
+
+
+def fill(folder: Path, document: bytes, settings: TownSettings, *, seed: int) -> Town:
+    """Write map.xodr and town.json; a town without routes gets some, so that demonstrations can be collected.
+
+    Args:
+        folder: Empty folder of the town.
+        document: OpenDRIVE map.
+        settings: What town.json shall say.
+        seed: Decides the routes.
+
+    Returns:
+        The town as it will be loaded.
+
+    Raises:
+        TownFormatError: If the map cannot be driven.
+    """
+    (folder / library.MAP_FILE).write_bytes(document)
+    write_json(settings, folder / library.SETTINGS_FILE)
+    town = library.load_folder(folder)
+    if settings.routes:
+        return town
+    try:
+        routes = routing.demonstration_routes(
+            town, num_routes=NUM_ROUTES, length=ROUTE_LENGTH, rng=np.random.default_rng(seed)
+        )
+    except RouteError:
+        return town  # `towns check` says why nobody can drive far in it
+    write_json(replace(settings, routes=routes), folder / library.SETTINGS_FILE)
+    return library.load_folder(folder)
