@@ -4,31 +4,19 @@ from itertools import pairwise
 
 import shapely
 
-from mjdrive.simulation.blocks import Block, block_behind, rings
+from mjdrive.town.blocks import Block, block_behind, rings
+from mjdrive.town.scenery import CHORD_ERROR
 
 KERB_HEIGHT = 0.12  # [m]
-CHORD_ERROR = 0.03  # largest distance between a kerb and the true edge of the road [m]
 SHORTEST_SLAB = 0.05  # [m]
 NARROW_DEPTHS = (1.0, 0.15)  # tried where a slab of full depth would reach over another road [m]
-
-
-def simplified(road: shapely.Geometry) -> shapely.Geometry:
-    """Straighten the outline of the road to the chords that the kerbs follow.
-
-    Args:
-        road: Surface between the kerbs [m].
-
-    Returns:
-        The same area with few corners [m].
-    """
-    return shapely.simplify(road, CHORD_ERROR, preserve_topology=True)
 
 
 def sidewalk_slabs(road: shapely.Geometry, *, width: float) -> list[Block]:
     """Lay slabs along the edge of the road; their front faces are the kerb.
 
     Args:
-        road: Surface between the kerbs, as `simplified` returns it [m].
+        road: Surface between the kerbs, as `town.scenery` lays it out [m].
         width: Width of the sidewalk [m].
 
     Returns:

@@ -11,9 +11,9 @@ import shapely
 from mjdrive import geometry
 from mjdrive.config import SimulationConfig
 from mjdrive.datatypes import Action
-from mjdrive.simulation.blocks import Block
 from mjdrive.simulation.scene import build_scene, scene_xml
 from mjdrive.town import library, surface
+from mjdrive.town.blocks import Block
 from mjdrive.vehicle import engine
 from mjdrive.vehicle.car import Car
 

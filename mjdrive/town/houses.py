@@ -5,26 +5,34 @@ from itertools import pairwise
 import numpy as np
 import shapely
 
-from mjdrive.simulation.blocks import Block, block_behind, rings
+from mjdrive.town.blocks import Block, block_behind, rings
 from mjdrive.town.settings import SceneryConfig
 
 STRAIGHTENING = 0.3  # outline of the building line [m]
 
 
-def buildings(road: shapely.Geometry, scenery: SceneryConfig) -> list[Block]:
-    """Line the streets with houses of varied size.
+def line_with_houses(
+    streets: shapely.Geometry,
+    scenery: SceneryConfig,
+    rng: np.random.Generator,
+    *,
+    taken: shapely.Geometry | None = None,
+) -> tuple[Block, ...]:
+    """Line the streets with houses of varied size; where there is no room there are fewer.
 
     Args:
-        road: Surface between the kerbs [m].
-        scenery: Sizes, gaps, setback and seed.
+        streets: Roads and all that belongs to them, sidewalks and verges [m].
+        scenery: Sizes, gaps and setback.
+        rng: Draws sizes and gaps.
+        taken: Ground where other things stand already [m].
 
     Returns:
-        Houses that touch neither road, sidewalk nor each other.
+        Houses that touch neither the streets nor taken ground nor each other; each looks to the left of its yaw, at its street.
     """
-    rng = np.random.default_rng(scenery.seed)
-    sidewalk = shapely.buffer(road, scenery.sidewalk_width)
-    building_line = shapely.buffer(sidewalk, scenery.building_setback)
-    keep_clear = shapely.buffer(sidewalk, 0.5 * scenery.building_setback)
+    building_line = shapely.buffer(streets, scenery.building_setback)
+    keep_clear = shapely.buffer(streets, 0.5 * scenery.building_setback)
+    if taken is not None:
+        keep_clear = keep_clear | taken
     shapely.prepare(keep_clear)
     houses: list[Block] = []
     footprints: list[shapely.Polygon] = []
@@ -37,7 +45,7 @@ def buildings(road: shapely.Geometry, scenery: SceneryConfig) -> list[Block]:
                 ):
                     houses.append(house)
                     footprints.append(footprint)
-    return houses
+    return tuple(houses)
 
 
 def _row(

@@ -1,0 +1,156 @@
+"""What stands and lies beside the roads, as plain geometry: the one layout that pictures, physics and views share."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from jaxtyping import Float
+
+from mjdrive.datatypes import StaticObject, Town
+from mjdrive.town import surface
+from mjdrive.town.blocks import Block
+from mjdrive.town.houses import line_with_houses
+from mjdrive.town.settings import SceneryConfig
+from mjdrive.town.street_trees import Tree, plant_trees
+
+KERBSTONE_WIDTH = 0.15  # [m]
+CHORD_ERROR = 0.03  # largest distance between a kerb and the true edge of the road [m]
+CORNER = 8.0  # around junctions the sidewalk reaches the kerb, and no tree hides the traffic [m]
+CROSSING_RAMP = 0.5  # paving to both sides of a crosswalk [m]
+POLE_CLEARANCE = 5.0  # between a tree and a light or a sign [m]
+DRIVER_VIEW = 25.0  # a light or a sign is seen from this far [m]
+SMALLEST_PATCH = 1.0  # smaller scraps of grass are paved [m^2]
+ON_THE_GROUND = 0.05  # objects up to this height are paint [m]
+SMALLEST_ISLAND = 12.0  # smaller holes between lanes are paved [m^2]
+SMALLEST_BLOCK = (
+    700.0  # what roads enclose below this area is an island: grass, no sidewalk, no houses [m^2]
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Scenery:
+    """The layout of a town beside its lanes.
+
+    Attributes:
+        road: Surface between the kerbs, few corners, world frame [m].
+        sidewalk: Paved ground beside the road, kerbstones left out, world frame [m].
+        verge: Grass between kerb and sidewalk, as high as the sidewalk, world frame [m].
+        buildings: Generated houses; each looks to the left of its yaw, at its street.
+        trees: Generated trees.
+    """
+
+    road: shapely.Geometry
+    sidewalk: shapely.Geometry
+    verge: shapely.Geometry
+    buildings: tuple[Block, ...]
+    trees: tuple[Tree, ...]
+
+
+def lay_out(town: Town, scenery: SceneryConfig) -> Scenery:
+    """Lay out sidewalks, verges, houses and trees; the same town and settings give the same layout.
+
+    Args:
+        town: Road network with its signs and objects.
+        scenery: Sizes and seed.
+
+    Returns:
+        The layout. Houses touch neither road nor sidewalk nor objects of the map.
+    """
+    rng = np.random.default_rng(scenery.seed)
+    road = _road(town)
+    sidewalk, verge = _sides(town, road, scenery)
+    objects = shapely.union_all([shapely.Polygon(thing.outline) for thing in standing(town)])
+    raised = shapely.buffer(road, scenery.sidewalk_width)
+    streets = shapely.union_all([raised, sidewalk, verge])
+    buildings = line_with_houses(streets, scenery, rng, taken=shapely.buffer(objects, 1.0))
+    trees = plant_trees(
+        verge,
+        scenery,
+        rng,
+        middle=shapely.buffer(road, 0.5 * (KERBSTONE_WIDTH + scenery.verge_width)),
+        keep_clear=shapely.union_all([_views(town), shapely.buffer(objects, 2.0)]),
+    )
+    return Scenery(road=road, sidewalk=sidewalk, verge=verge, buildings=buildings, trees=trees)
+
+
+def standing(town: Town) -> tuple[StaticObject, ...]:
+    """List the objects of the map that a car can run into; the others lie flat on the ground."""
+    return tuple(thing for thing in town.objects if thing.height > ON_THE_GROUND)
+
+
+def _road(town: Town) -> shapely.Geometry:
+    """Surface between the kerbs; the islands of roundabouts are no road, even small ones."""
+    road = shapely.difference(surface.road_surface(town), _islands(town))
+    return shapely.simplify(road, CHORD_ERROR, preserve_topology=True)
+
+
+def _islands(town: Town) -> shapely.Geometry:
+    """Holes that traffic runs around on roads, not only on the turning lanes of one junction."""
+    lanes = surface.lane_polygons(town)
+    on_roads = shapely.union_all(
+        [lanes[name] for name, lane in town.lanes.items() if lane.junction is None]
+    )
+    islands = []
+    for part in shapely.get_parts(surface.driving_surface(town)):
+        for ring in part.interiors:
+            hole = shapely.Polygon(ring)
+            along_roads = shapely.intersection(shapely.buffer(on_roads, 0.1), ring).length
+            if hole.area >= SMALLEST_ISLAND and along_roads > 0.25 * ring.length:
+                islands.append(hole)
+    return shapely.buffer(shapely.union_all(islands), -0.3)
+
+
+def _enclosed(road: shapely.Geometry) -> shapely.Geometry:
+    """Islands that the road runs around."""
+    holes = [shapely.Polygon(ring) for part in shapely.get_parts(road) for ring in part.interiors]
+    return shapely.union_all([hole for hole in holes if hole.area < SMALLEST_BLOCK])
+
+
+def _sides(
+    town: Town, road: shapely.Geometry, scenery: SceneryConfig
+) -> tuple[shapely.Geometry, shapely.Geometry]:
+    """Split the ground beside the kerb into paving and grass."""
+    kerb = shapely.buffer(road, KERBSTONE_WIDTH, join_style="mitre")
+    raised = shapely.simplify(shapely.buffer(road, scenery.sidewalk_width), 0.1)
+    if town.sidewalks:
+        paved = shapely.union_all([shapely.Polygon(outline) for outline in town.sidewalks])
+        verge = raised - paved
+    else:
+        strip = shapely.buffer(road, KERBSTONE_WIDTH + scenery.verge_width)
+        verge = strip - _corners(town)
+    verge |= _enclosed(road)
+    verge = _without_scraps(shapely.difference(verge, kerb))
+    sidewalk = raised if not town.sidewalks else shapely.union_all([raised, paved])
+    return shapely.difference(sidewalk, shapely.union_all([kerb, verge])), verge
+
+
+def _corners(town: Town) -> shapely.Geometry:
+    """Where people cross: junctions and crosswalks."""
+    lanes = surface.lane_polygons(town)
+    crossed = [lanes[name] for name, lane in town.lanes.items() if lane.junction is not None]
+    crosswalks = [
+        shapely.Polygon(thing.outline) for thing in town.objects if thing.type == "crosswalk"
+    ]
+    return shapely.union_all(
+        [
+            shapely.buffer(shapely.union_all(crossed), CORNER),
+            shapely.buffer(shapely.union_all(crosswalks), 4.0 + CROSSING_RAMP),
+        ]
+    )
+
+
+def _views(town: Town) -> shapely.Geometry:
+    """Ground that trees would hide from drivers: junctions, and what lies before lights and signs."""
+    lines = [_line_of_sight(light.pole, light.yaw) for light in town.lights.values()]
+    lines += [_line_of_sight(np.array([sign.x, sign.y]), sign.yaw) for sign in town.signs]
+    return shapely.union_all([_corners(town), *shapely.buffer(lines, 0.5 * POLE_CLEARANCE)])
+
+
+def _line_of_sight(spot: Float[np.ndarray, "2"], yaw: float) -> shapely.LineString:
+    ahead = DRIVER_VIEW * np.array([np.cos(yaw), np.sin(yaw)])
+    return shapely.LineString([spot, spot - ahead])
+
+
+def _without_scraps(area: shapely.Geometry) -> shapely.Geometry:
+    parts = shapely.get_parts(shapely.simplify(area, CHORD_ERROR))
+    return shapely.union_all([part for part in parts if part.area >= SMALLEST_PATCH])
