@@ -54,9 +54,9 @@ def join(start: Pose, end: Pose, *, radius: float | None, what: str) -> tuple[Pi
     angle = float(
         np.arctan2(_cross(start.direction, end.direction), start.direction @ end.direction)
     )
-    if abs(angle) < _KINK:
-        return _chain(start, end, [(float(np.hypot(*(end.point - start.point))), 0.0)])
     gap = end.point - start.point
+    if abs(angle) < _KINK:
+        return _chain(Pose(start.point, gap), [(float(np.hypot(*gap)), 0.0)])
     lead_in = _cross(gap, end.direction) / np.sin(angle)
     lead_out = _cross(start.direction, gap) / np.sin(angle)
     half_tangent = np.tan(abs(angle) / 2.0)
@@ -70,13 +70,26 @@ def join(start: Pose, end: Pose, *, radius: float | None, what: str) -> tuple[Pi
     tangent = radius * half_tangent
     return _chain(
         start,
-        end,
         [
             (lead_in - tangent, 0.0),
             (radius * abs(angle), float(np.copysign(1.0 / radius, angle))),
             (lead_out - tangent, 0.0),
         ],
     )
+
+
+def turn_left(start: Pose, *, radius: float, angle: float) -> tuple[Piece, ...]:
+    """Draw a single arc to the left.
+
+    Args:
+        start: Where it begins.
+        radius: Its radius [m].
+        angle: By how much it turns [rad].
+
+    Returns:
+        The arc, as a reference line that starts at s = 0.
+    """
+    return _chain(start, [(radius * angle, 1.0 / radius)])
 
 
 def length_of(pieces: tuple[Piece, ...]) -> float:
@@ -94,11 +107,10 @@ def _cross(first: Float[np.ndarray, "2"], second: Float[np.ndarray, "2"]) -> flo
     return float(first[0] * second[1] - first[1] * second[0])
 
 
-def _chain(start: Pose, end: Pose, stretches: list[tuple[float, float]]) -> tuple[Piece, ...]:
-    """Lay stretches (length, curvature) one behind the other."""
-    only_line = len(stretches) == 1
-    along = end.point - start.point if only_line else start.direction
-    s, (x, y), heading = 0.0, start.point, float(np.arctan2(along[1], along[0]))
+def _chain(start: Pose, stretches: list[tuple[float, float]]) -> tuple[Piece, ...]:
+    """Lay stretches (length, curvature) one behind the other; the direction of the start may have any length."""
+    s, (x, y) = 0.0, start.point
+    heading = float(np.arctan2(start.direction[1], start.direction[0]))
     pieces = []
     for length, curvature in stretches:
         if length < _SHORTEST_LINE:

@@ -1,15 +1,14 @@
 """From a street plan to an OpenDRIVE map."""
 
+from collections import defaultdict
 from dataclasses import replace
-from itertools import pairwise, permutations
+from itertools import pairwise
 
 import numpy as np
-from jaxtyping import Float
 
 from mjdrive.town.fillet import Pose, extend, join, length_of
-from mjdrive.town.network import TRAFFIC_LIGHT_TYPE
+from mjdrive.town.junction_builder import Crossing, build_junction
 from mjdrive.town.road_map import (
-    Connection,
     Junction,
     LaneRecord,
     LaneSection,
@@ -19,7 +18,10 @@ from mjdrive.town.road_map import (
     SignalRecord,
 )
 from mjdrive.town.road_shapes import Cubic, Piece, RoadMark
-from mjdrive.town.street_plan import CornerPlan, CrossSection, JunctionPlan, LightPlan, StreetPlan
+from mjdrive.town.roadside import light_signal, sign_signal
+from mjdrive.town.roundabout import build_roundabout
+from mjdrive.town.street_ends import contact, corners_of, inward, outward, ring_junctions
+from mjdrive.town.street_plan import CornerPlan, CrossSection, StreetPlan
 
 _CENTRE_MARK = RoadMark("broken", "yellow", 0.125)
 _KERB_MARK = RoadMark("curb", "standard", 0.152)
@@ -33,7 +35,7 @@ def build_map(plan: StreetPlan) -> RoadMap:
         plan: The street plan.
 
     Returns:
-        Streets, corners, and a connecting road for each way through each junction.
+        Streets, corners, rings, and a connecting road for each way through each junction.
 
     Raises:
         TownFormatError: If a turn does not fit into its junction.
@@ -41,64 +43,45 @@ def build_map(plan: StreetPlan) -> RoadMap:
     roads = {road: _street(plan, road) for road in plan.streets}
     for node, corner in plan.corners.items():
         roads[node] = _corner(plan, node, corner)
-    junctions, controllers = {}, {}
+    signals = _signals(plan, roads)
+    roads = {
+        name: replace(road, signals=tuple(signals[name])) if name in signals else road
+        for name, road in roads.items()
+    }
+    junctions: dict[str, Junction] = {}
     next_id = _FIRST_CONNECTING_ROAD
-    for node, crossing in plan.junctions.items():
-        ways = [
-            _way(plan, node, *pair, road=str(next_id + i))
-            for i, pair in enumerate(permutations(crossing.arms, 2))
-        ]
-        next_id += len(ways)
-        roads |= {way.id: way for way in ways}
-        for light in crossing.lights:
-            controllers[light.id] = (light.id,)
-            approach = roads[light.road]
-            roads[light.road] = replace(
-                approach, signals=(*approach.signals, _signal(plan, node, light, approach))
-            )
-        junctions[node] = _junction(node, crossing, ways)
+    crossings = [(build_junction, node) for node in plan.junctions]
+    for build, node in [*crossings, *((build_roundabout, node) for node in plan.roundabouts)]:
+        crossing: Crossing = build(plan, node, first_id=next_id)
+        next_id += len(crossing.ways)
+        roads |= {road.id: road for road in (*crossing.ring, *crossing.ways)}
+        junctions |= {junction.id: junction for junction in crossing.junctions}
+    controllers = {
+        light.id: (light.id,) for junction in plan.junctions.values() for light in junction.lights
+    }
     return RoadMap(plan.name, roads, junctions, controllers)
 
 
-def _arms(plan: StreetPlan, node: str) -> dict[str, float]:
-    return plan.corners[node].arms if node in plan.corners else plan.junctions[node].arms
-
-
-def _outward(plan: StreetPlan, road: str, node: str) -> Pose:
-    """Where the middle of a street leaves a node, looking away from it."""
-    corners = _corners(plan, road)
-    here, there = corners[:2] if node == plan.streets[road][0] else corners[:-3:-1]
-    direction = (there - here) / np.hypot(*(there - here))
-    return Pose(here + _arms(plan, node)[road] * direction, direction)
-
-
-def _corners(plan: StreetPlan, road: str) -> list[Float[np.ndarray, "2"]]:
-    """Ends and bends of a street, in its direction [m]."""
-    start, end = plan.streets[road]
-    return [
-        np.array(point) for point in (plan.nodes[start], *plan.bends.get(road, ()), plan.nodes[end])
-    ]
-
-
-def _inward(plan: StreetPlan, road: str, node: str) -> Pose:
-    point, direction = _outward(plan, road, node)
-    return Pose(point, -direction)
-
-
-def _contact(plan: StreetPlan, road: str, node: str) -> str:
-    """Which end of a street lies at a node."""
-    return "start" if plan.streets[road][0] == node else "end"
+def _signals(plan: StreetPlan, roads: dict[str, Road]) -> dict[str, list[SignalRecord]]:
+    """Lights and signs beside each street, by road."""
+    signals = defaultdict(list)
+    for node, junction in plan.junctions.items():
+        for light in junction.lights:
+            signals[light.road].append(light_signal(plan, node, light, roads[light.road]))
+    for sign in plan.signs:
+        signals[sign.road].append(sign_signal(sign, roads[sign.road]))
+    return signals
 
 
 def _street(plan: StreetPlan, road: str) -> Road:
     start, end = plan.streets[road]
-    corners = _corners(plan, road)
+    corners = corners_of(plan, road)
     # Half way between two bends a street is straight: each bend is joined from half way to half way.
     half_ways = [
         Pose(0.5 * (here + there), (there - here) / np.hypot(*(there - here)))
         for here, there in pairwise(corners[1:-1])
     ]
-    poses = [_outward(plan, road, start), *half_ways, _inward(plan, road, end)]
+    poses = [outward(plan, road, start), *half_ways, inward(plan, road, end)]
     pieces: tuple[Piece, ...] = ()
     for here, there in pairwise(poses):
         run = join(here, there, radius=None, what=f"Street '{road}'")
@@ -108,20 +91,21 @@ def _street(plan: StreetPlan, road: str) -> Road:
 
 
 def _link_at(plan: StreetPlan, road: str, node: str) -> RoadLink:
-    if node in plan.junctions:
-        return RoadLink("junction", node)
-    return RoadLink("road", node, "start" if road == next(iter(plan.corners[node].arms)) else "end")
+    if node in plan.corners:
+        first = next(iter(plan.corners[node].arms))
+        return RoadLink("road", node, "start" if road == first else "end")
+    return RoadLink("junction", ring_junctions(plan).get((node, road), node))
 
 
 def _corner(plan: StreetPlan, node: str, corner: CornerPlan) -> Road:
     come, go = corner.arms
     pieces = join(
-        _inward(plan, come, node),
-        _outward(plan, go, node),
+        inward(plan, come, node),
+        outward(plan, go, node),
         radius=corner.radius,
         what=f"Corner '{node}'",
     )
-    links = [RoadLink("road", road, _contact(plan, road, node)) for road in (come, go)]
+    links = [RoadLink("road", road, contact(plan, road, node)) for road in (come, go)]
     return _two_way(node, pieces, links[0], links[1], plan.cross_section)
 
 
@@ -160,70 +144,4 @@ def _two_way(
         sections=(LaneSection(0.0, tuple(lanes)),),
         predecessor=before,
         successor=behind,
-    )
-
-
-def _way(plan: StreetPlan, node: str, come: str, go: str, *, road: str) -> Road:
-    """Draw a connecting road: one lane whose middle is the reference line."""
-    width = plan.cross_section.lane
-    radii = {(turn.come, turn.go): turn.radius for turn in plan.junctions[node].turns}
-    pieces = join(
-        _inward(plan, come, node).to_the_right(width / 2),
-        _outward(plan, go, node).to_the_right(width / 2),
-        radius=radii.get((come, go)),
-        what=f"The way from road '{come}' to road '{go}' through junction '{node}'",
-    )
-    before = RoadLink("road", come, _contact(plan, come, node))
-    behind = RoadLink("road", go, _contact(plan, go, node))
-    lane = LaneRecord(
-        id=-1,
-        type="driving",
-        widths=(Cubic(0.0, width),),
-        predecessor=-1 if before.contact == "end" else 1,
-        successor=-1 if behind.contact == "start" else 1,
-    )
-    return Road(
-        id=road,
-        name=f"Junction {node}: {come} to {go}",
-        length=length_of(pieces),
-        junction=node,
-        pieces=pieces,
-        lane_offsets=(Cubic(0.0, width / 2),),
-        sections=(LaneSection(0.0, (LaneRecord(0, "none"), lane)),),
-        predecessor=before,
-        successor=behind,
-    )
-
-
-def _junction(node: str, crossing: JunctionPlan, ways: list[Road]) -> Junction:
-    connections = []
-    for index, way in enumerate(ways):
-        lane = way.sections[0].lanes[-1]
-        assert way.predecessor is not None
-        assert lane.predecessor is not None
-        connections.append(
-            Connection(
-                str(index), way.predecessor.id, way.id, "start", ((lane.predecessor, lane.id),)
-            )
-        )
-    return Junction(
-        node, f"Junction {node}", tuple(connections), tuple(light.id for light in crossing.lights)
-    )
-
-
-def _signal(plan: StreetPlan, node: str, light: LightPlan, road: Road) -> SignalRecord:
-    lane = -1 if _contact(plan, light.road, node) == "end" else 1
-    line = road.pieces[-1] if lane < 0 else road.pieces[0]
-    along = np.array([np.cos(line.heading), np.sin(line.heading)])
-    relative = np.array(light.pole) - np.array([line.x, line.y])
-    return SignalRecord(
-        id=light.id,
-        name=f"Light {light.id}",
-        type=TRAFFIC_LIGHT_TYPE,
-        # A pole may stand a little behind the end of its road; the standard keeps s on the road.
-        s=round(float(np.clip(line.s + relative @ along, 0.0, road.length)), 9),
-        t=round(float(along[0] * relative[1] - along[1] * relative[0]), 9),
-        orientation="+" if lane < 0 else "-",
-        from_lane=lane,
-        to_lane=lane,
     )

@@ -1,6 +1,7 @@
-"""A town as a compact street plan: nodes, straight streets, one radius a turn."""
+"""A town as a compact street plan: nodes, streets, one radius a turn."""
 
 import tomllib
+from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -61,12 +62,25 @@ class LightPlan:
     Attributes:
         road: Road whose traffic it stops, at the edge of the junction.
         id: Id of the signal.
-        pole: Where its pole stands: x, y in the world frame [m].
+        pole: Where its pole stands: x, y in the world frame [m]; on the sidewalk beside the stop line if None.
     """
 
     road: str
     id: str
-    pole: tuple[float, float]
+    pole: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class TurnRadii:
+    """Radii of turns that a junction does not list.
+
+    Attributes:
+        left: Of the middle of the lane [m].
+        right: Of the middle of the lane [m].
+    """
+
+    left: float = 10.0
+    right: float = 6.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,47 +89,108 @@ class JunctionPlan:
 
     Attributes:
         arms: Distance from the node at which each street ends and its stop line lies, by road id [m].
-        lights: One light a street, in the order in which they turn green.
-        turns: Radii of the turns; a pair of streets that is not listed is driven straight through.
+        lights: One light a street, in the order in which they turn green; none if traffic just goes.
+        turns: Radii of turns; a pair of streets that is not listed is driven straight through where both
+            point the same way to 45 degrees, and by the turn radii of the plan otherwise.
     """
 
     arms: dict[str, float]
-    lights: tuple[LightPlan, ...]
-    turns: tuple[TurnPlan, ...]
+    lights: tuple[LightPlan, ...] = ()
+    turns: tuple[TurnPlan, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class RoundaboutPlan:
+    """A one-way ring, driven counter-clockwise and without lights; its node is the centre.
+
+    Attributes:
+        arms: Distance from the node at which each street ends, by road id, counter-clockwise [m].
+        radius: Of the middle of the ring lane [m].
+        entry_radius: Of the middle of the lanes that lead in and out [m].
+    """
+
+    arms: dict[str, float]
+    radius: float = 16.0
+    entry_radius: float = 12.0
+
+    def __post_init__(self) -> None:
+        require(
+            len(self.arms) >= 2,
+            f"A roundabout has the arms {list(self.arms)}; expected two or more.",
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class SpeedSignPlan:
+    """A speed limit sign; it is for the traffic on whose side of the street it stands.
+
+    Attributes:
+        id: Id of the signal.
+        road: Street that it stands beside.
+        limit_kmh: Number on the sign [km/h].
+        at: Where it stands: x, y in the world frame [m].
+    """
+
+    id: str
+    road: str
+    limit_kmh: float
+    at: tuple[float, float]
+
+
+LARGEST_ID = 999
+"""Ids above this are left for the roads that the builder draws across junctions."""
 
 
 @dataclass(frozen=True, slots=True)
 class StreetPlan:
-    """Everything that a map is drawn from. Streets run straight from node to node, or bend slightly on the way.
+    """Everything that a map is drawn from. Streets run straight from node to node, or bend on the way.
 
-    Ids of roads, corners and junctions are whole numbers written as text; each is used once.
+    Ids of roads, corners, junctions and roundabouts are whole numbers from 0 to 999 written as text; each is used once.
 
     Attributes:
         name: Name of the town.
-        nodes: Where streets meet, by the id of the corner or junction there: x, y in the world frame [m].
+        nodes: Where streets meet, by the id of the corner, junction or roundabout there: x, y in the world frame [m].
         streets: Ids of the nodes where each street begins and ends, by road id.
         corners: Bends where two streets meet without lights, by node id.
-        junctions: T-junctions with lights, by node id.
-        bends: Points where a street changes its direction by a little, in order, by road id [m].
+        junctions: Where three or more streets meet, by node id.
+        bends: Points where a street changes its direction gently, in order, by road id [m].
         cross_section: Widths, the same everywhere.
+        roundabouts: Rings where streets meet, by node id.
+        turn_radii: Radii of turns that a junction does not list.
+        signs: Speed limit signs.
     """
 
     name: str
     nodes: dict[str, tuple[float, float]]
     streets: dict[str, tuple[str, str]]
-    corners: dict[str, CornerPlan]
-    junctions: dict[str, JunctionPlan]
+    corners: dict[str, CornerPlan] = field(default_factory=dict)
+    junctions: dict[str, JunctionPlan] = field(default_factory=dict)
     bends: dict[str, tuple[tuple[float, float], ...]] = field(default_factory=dict)
     cross_section: CrossSection = CrossSection()
+    roundabouts: dict[str, RoundaboutPlan] = field(default_factory=dict)
+    turn_radii: TurnRadii = TurnRadii()
+    signs: tuple[SpeedSignPlan, ...] = ()
 
     def __post_init__(self) -> None:
-        known = set(self.corners) | set(self.junctions)
+        kinds = (self.corners, self.junctions, self.roundabouts)
+        known = {node for kind in kinds for node in kind} & set(self.nodes)
         for road, ends in self.streets.items():
             for node in ends:
                 require(
-                    node in known and node in self.nodes,
-                    f"Street '{road}' ends at node '{node}'; expected one of {sorted(known & set(self.nodes))}.",
+                    node in known,
+                    f"Street '{road}' ends at node '{node}'; expected one of {sorted(known)}.",
                 )
+        uses = Counter([*self.streets, *(node for kind in kinds for node in kind)])
+        for name, count in uses.items():
+            require(
+                count == 1 and name.isdecimal() and int(name) <= LARGEST_ID,
+                f"Id '{name}' is used {count} times; expected whole numbers from 0 to {LARGEST_ID}, each used once.",
+            )
+        for sign in self.signs:
+            require(
+                sign.road in self.streets,
+                f"Sign '{sign.id}' stands beside street '{sign.road}'; expected one of {sorted(self.streets)}.",
+            )
 
 
 def read_plan(path: Path) -> StreetPlan:

@@ -34,7 +34,7 @@ def test_a_street_has_lane_gutter_and_sidewalk_on_each_side(road_map: RoadMap) -
     right = [(-1, "driving", [4.0]), (-2, "shoulder", [0.3]), (-3, "sidewalk", [4.0])]
     left = [(-number, kind, width) for number, kind, width in reversed(right)]
     assert described == [*left, (0, "none", []), *right]
-    assert section.lanes[3].mark.type == "broken"
+    assert [mark.type for mark in section.lanes[3].marks] == ["broken"]
 
 
 def test_corners_have_the_radius_of_the_plan(road_map: RoadMap) -> None:
