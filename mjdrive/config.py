@@ -2,8 +2,9 @@
 
 import dataclasses
 import json
+import math
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Literal, TypeVar, get_args
 
 import cattrs
 from cattrs.v import format_exception
@@ -12,6 +13,9 @@ from mjdrive.errors import ConfigError
 from mjdrive.files import write_atomically
 
 Config = TypeVar("Config")
+
+ExtraLayer = Literal["route", "sidewalks", "buildings", "vehicles"]
+"""A channel that the bird's-eye view can have beside the paper's five."""
 
 _CONVERTER = cattrs.Converter(forbid_extra_keys=True)
 
@@ -102,6 +106,9 @@ class BevConfig:
         light_thickness_px: Thickness of a drawn stop line [px].
         road_outline_px: Width of the outline drawn around each lane of the road channel [px].
         origin_ahead_of_rear_axle: Where the picture's ego point lies on the car, ahead of the rear axle [m].
+        light_range: Lights whose stop line is farther from the ego point are not drawn [m].
+        light_values: "grey" draws green, yellow and red as 80, 170 and 255; "binary" draws red alone, as 255.
+        extra_layers: Channels after the five, in this order: any of "route", "sidewalks", "buildings", "vehicles".
     """
 
     size_px: int = 192
@@ -112,12 +119,26 @@ class BevConfig:
     light_thickness_px: int = 6
     road_outline_px: int = 5
     origin_ahead_of_rear_axle: float = 1.35
+    light_range: float = 50.0
+    light_values: Literal["grey", "binary"] = "grey"
+    extra_layers: tuple[ExtraLayer, ...] = ()
 
     def __post_init__(self) -> None:
         require(self.size_px >= 16, f"size_px is {self.size_px}; expected at least 16.")
         require(
             self.pixels_per_metre > 0,
             f"pixels_per_metre is {self.pixels_per_metre}; expected a positive number.",
+        )
+        require(self.light_range > 0, f"light_range is {self.light_range} m; expected over 0.")
+        require(
+            self.light_values in ("grey", "binary"),
+            f"light_values is '{self.light_values}'; expected grey or binary.",
+        )
+        known = get_args(ExtraLayer)
+        require(
+            set(self.extra_layers) <= set(known)
+            and len(set(self.extra_layers)) == len(self.extra_layers),
+            f"extra_layers is {self.extra_layers}; expected each at most once of {', '.join(known)}.",
         )
 
 
@@ -155,20 +176,43 @@ class RulesConfig:
     Attributes:
         light_distance: Lights farther from the car than this are not looked at; Roach has 30 [m].
         stop_line_share: Half length of the watched stop line over the lane width; 0.6 in newer Leaderboards [-].
+        stop_line_sweep: Whether a car that moves farther in a step than its tail is long can be seen to cross;
+            without it, as in the Leaderboard, crossings above about 52 km/h may be missed.
         same_hit_time: A touch of the same thing within this time of the last one is no new collision [s].
         same_hit_distance: Nor is one within this distance of the last one [m].
+        back_on_road: An excursion off the road ends when the centre of the car is this far inside again [m].
+        wrong_way_angle: A lane fits while the heading of the car is within this angle of its direction [rad].
+        wrong_way_distance: Path against the lanes that makes a wrong way, about a car length [m].
+        stuck_speed: Below this the car stands [m/s].
+        stuck_time: A standstill of this length is being stuck [s].
     """
 
     light_distance: float = 15.0
     stop_line_share: float = 0.4
+    stop_line_sweep: bool = True
     same_hit_time: float = 5.0
     same_hit_distance: float = 3.0
+    back_on_road: float = 0.5
+    wrong_way_angle: float = math.radians(120.0)
+    wrong_way_distance: float = 5.0
+    stuck_speed: float = 0.1
+    stuck_time: float = 180.0
 
     def __post_init__(self) -> None:
         require(
             0 < self.stop_line_share <= 1,
             f"stop_line_share is {self.stop_line_share}; expected a share of the lane width in (0, 1].",
         )
+        require(
+            math.pi / 2 <= self.wrong_way_angle < math.pi,
+            f"wrong_way_angle is {self.wrong_way_angle} rad; expected pi/2 or more, and less than pi.",
+        )
+        for name in ("light_distance", "stuck_speed", "stuck_time"):
+            value = getattr(self, name)
+            require(value > 0, f"{name} is {value}; expected a positive number.")
+        for name in ("same_hit_time", "same_hit_distance", "back_on_road", "wrong_way_distance"):
+            value = getattr(self, name)
+            require(value >= 0, f"{name} is {value}; expected 0 or more.")
 
 
 @dataclasses.dataclass(frozen=True, slots=True)

@@ -105,14 +105,14 @@ class Infraction:
         time: Simulation time since reset [s].
         x: Rear-axle centre, world frame [m].
         y: Rear-axle centre, world frame [m].
-        object: The light that was run or the thing that was hit; empty off the road.
+        cause: The light that was run, the thing that was hit, the lane that was left or driven against, or "standstill".
     """
 
     kind: InfractionKind
     time: float
     x: float
     y: float
-    object: str
+    cause: str
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,7 +10,7 @@
         obs/vehicle          Episode.vehicle  (T, 6)
         obs/time             Episode.time     (T,)
         obs/on_lane          Episode.on_lane  (T,)
-    /infractions             kind (K,), time (K,), position (K, 2), object (K,)
+    /infractions             kind (K,), time (K,), position (K, 2), cause (K,)
 
 The study has no reward, so there is none here; the bird's-eye view is recomputed from `obs/vehicle`. Each part
 of the file carries a check sum, so a damaged file is refused instead of read.
@@ -28,7 +28,7 @@ from mjdrive.datatypes import Episode, Infraction, InfractionKind
 from mjdrive.errors import DataError
 from mjdrive.files import write_atomically
 
-FORMAT = "mjdrive-episode-1"
+FORMAT = "mjdrive-episode-2"
 
 _ARRAYS = {
     "actions": "actions",
@@ -158,19 +158,19 @@ def _put(group: h5py.Group, name: str, array: np.ndarray) -> None:
 
 def _put_infractions(group: h5py.Group, infractions: tuple[Infraction, ...]) -> None:
     """Store the infractions as parallel arrays; names as UTF-8, padded to the longest."""
-    objects = [infraction.object.encode() for infraction in infractions]
-    longest = max([len(text) for text in objects], default=1)
+    causes = [infraction.cause.encode() for infraction in infractions]
+    longest = max([len(text) for text in causes], default=1)
     _put(group, "kind", np.array([infraction.kind for infraction in infractions], np.uint8))
     _put(group, "time", np.array([infraction.time for infraction in infractions], np.float64))
     position = [(infraction.x, infraction.y) for infraction in infractions]
     _put(group, "position", np.array(position, np.float64).reshape(-1, 2))
-    _put(group, "object", np.array(objects, f"S{max(longest, 1)}"))
+    _put(group, "cause", np.array(causes, f"S{max(longest, 1)}"))
 
 
 def _infractions(group: h5py.Group) -> tuple[Infraction, ...]:
     """Read what `_put_infractions` stored."""
-    columns = (group[name][()].tolist() for name in ("kind", "time", "position", "object"))
+    columns = (group[name][()].tolist() for name in ("kind", "time", "position", "cause"))
     return tuple(
-        Infraction(kind=InfractionKind(kind), time=time, x=x, y=y, object=text.decode())
+        Infraction(kind=InfractionKind(kind), time=time, x=x, y=y, cause=text.decode())
         for kind, time, (x, y), text in zip(*columns, strict=True)
     )

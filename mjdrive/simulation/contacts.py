@@ -6,7 +6,9 @@ import numpy as np
 from mjdrive.datatypes import InfractionKind
 
 _ROAD, _HULL, _TYRE, _KERB, _OBSTACLE = range(5)
-_ROLES = {"hull": _HULL, "tyre": _TYRE, "kerb": _KERB, "building": _OBSTACLE, "pole": _OBSTACLE}
+_ROLES = {"hull": _HULL, "tyre": _TYRE, "kerb": _KERB, "road": _ROAD}
+"""By the first word of a geom's name; whatever else can be touched is an obstacle."""
+
 _TYRE_ON_ROAD = {_ROAD, _TYRE}
 
 
@@ -21,7 +23,7 @@ class ContactWatch:
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         self._data = data
         self._names = [model.geom(index).name for index in range(model.ngeom)]
-        self._role = np.array([_ROLES.get(name.split("_")[0], _ROAD) for name in self._names])
+        self._role = np.array([_ROLES.get(name.split("_")[0], _OBSTACLE) for name in self._names])
 
     def hits(self) -> set[tuple[InfractionKind, str]]:
         """Everything that the car touches now, tyres on the road left out.

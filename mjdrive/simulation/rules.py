@@ -1,18 +1,19 @@
-"""The rules of a drive: red lights, collisions, kerbs and leaving the road.
+"""The rules of a drive: red lights, collisions, kerbs, leaving the road, the wrong way, and getting stuck.
 
-Red lights follow the Leaderboard 1.0 criterion (docs/decisions.md); what counts as off the road is stricter than there: the
-centre of the car outside every driving lane and the gaps between the lanes of a junction, where the Leaderboard allows 1.3 m beyond the lane.
+Each rule has a file of its own; what counts, and where it differs from the Leaderboard, is argued in docs/decisions.md.
 """
 
-from collections.abc import Iterable, Mapping
-
-import numpy as np
-import shapely
-from jaxtyping import Float
+import math
+from collections.abc import Collection, Mapping
 
 from mjdrive.config import RulesConfig
-from mjdrive.datatypes import Infraction, InfractionKind, Signal, Town, TrafficLight, VehicleState
-from mjdrive.town import surface
+from mjdrive.datatypes import Infraction, InfractionKind, Signal, Town, VehicleState
+from mjdrive.simulation.off_road import OffRoadWatch
+from mjdrive.simulation.red_lights import RedLightWatch
+from mjdrive.simulation.standstill import StandstillWatch
+from mjdrive.simulation.touches import TouchWatch
+from mjdrive.simulation.wrong_way import WrongWayWatch
+from mjdrive.town.lane_index import LaneIndex
 from mjdrive.vehicle.parameters import VehicleParameters
 
 
@@ -29,28 +30,27 @@ class Rules:
         self, town: Town, parameters: VehicleParameters, config: RulesConfig | None = None
     ) -> None:
         self.config = config or RulesConfig()
-        self._lights = tuple(town.lights.values())
-        middles = [light.stop_line.mean(axis=0) for light in self._lights]
-        self._stop_points = np.array(middles).reshape(-1, 2)
-        self._half_length = parameters.length / 2
         self._centre_ahead = parameters.length / 2 - parameters.rear_overhang
-        self._surface = surface.road_surface(town, shoulder=0.0)
-        self._approaches = surface.lane_polygons(town)
-        shapely.prepare(self._surface)
-        for light in town.lights.values():
-            shapely.prepare(self._approaches[light.lane])
-        self.reset()
+        index = LaneIndex(town)
+        self._red_lights = RedLightWatch(
+            town, index, half_length=parameters.length / 2, config=self.config
+        )
+        self._touches = TouchWatch(self.config)
+        self._off_road = OffRoadWatch(town, index, self.config)
+        self._wrong_way = WrongWayWatch(index, self.config)
+        self._standstill = StandstillWatch(self.config)
 
     def reset(self) -> None:
         """Forget the drive so far."""
-        self._last_light_run: str | None = None
-        self._was_on_lane = True
-        self._last_hit: dict[tuple[InfractionKind, str], tuple[float, float, float]] = {}
+        self._red_lights.reset()
+        self._touches.reset()
+        self._off_road.reset()
+        self._wrong_way.reset()
+        self._standstill.reset()
 
     def on_lane(self, vehicle: VehicleState) -> bool:
-        """Whether the centre of the car is on a driving lane."""
-        x, y = self._behind_centre(vehicle, 0.0)
-        return bool(shapely.contains_xy(self._surface, x, y))
+        """Whether the centre of the car is on the road: on a driving lane or in the gaps of a junction."""
+        return self._off_road.on_road(self._centre(vehicle))
 
     def check(
         self,
@@ -58,7 +58,7 @@ class Rules:
         time: float,
         vehicle: VehicleState,
         lights: Mapping[str, Signal],
-        hits: Iterable[tuple[InfractionKind, str]],
+        hits: Collection[tuple[InfractionKind, str]],
     ) -> tuple[Infraction, ...]:
         """Judge one control step.
 
@@ -71,61 +71,23 @@ class Rules:
         Returns:
             The breaches that are new in this step.
         """
-        found: list[tuple[InfractionKind, str]] = []
-        red_light = self._red_light_run(vehicle, lights)
-        if red_light is not None:
-            found.append((InfractionKind.RED_LIGHT, red_light))
-        found += [hit for hit in hits if self._is_new_hit(hit, time, vehicle)]
-        is_on_lane = self.on_lane(vehicle)
-        if self._was_on_lane and not is_on_lane:
-            found.append((InfractionKind.OFF_ROAD, ""))
-        self._was_on_lane = is_on_lane
-        return tuple(Infraction(kind, time, vehicle.x, vehicle.y, name) for kind, name in found)
+        centre = self._centre(vehicle)
+        causes = (
+            (InfractionKind.RED_LIGHT, self._red_lights.check(centre, vehicle.yaw, lights)),
+            *self._touches.check(time, (vehicle.x, vehicle.y), hits),
+            (InfractionKind.OFF_ROAD, self._off_road.check(centre)),
+            (InfractionKind.WRONG_WAY, self._wrong_way.check(centre, vehicle.yaw)),
+            (InfractionKind.STUCK, self._standstill.check(time, vehicle.speed)),
+        )
+        return tuple(
+            Infraction(kind, time, vehicle.x, vehicle.y, cause)
+            for kind, cause in causes
+            if cause is not None
+        )
 
-    def _behind_centre(self, vehicle: VehicleState, distance: float) -> tuple[float, float]:
-        """Point on the car's axis, `distance` behind the centre of its footprint [m]."""
-        ahead = self._centre_ahead - distance
+    def _centre(self, vehicle: VehicleState) -> tuple[float, float]:
+        """Centre of the footprint, world frame [m]."""
         return (
-            vehicle.x + ahead * float(np.cos(vehicle.yaw)),
-            vehicle.y + ahead * float(np.sin(vehicle.yaw)),
-        )
-
-    def _red_light_run(self, vehicle: VehicleState, lights: Mapping[str, Signal]) -> str | None:
-        near_tail = np.array(self._behind_centre(vehicle, 0.8 * self._half_length))
-        far_tail = np.array(self._behind_centre(vehicle, self._half_length + 1.0))
-        distance = np.hypot(*(self._stop_points - self._behind_centre(vehicle, 0.0)).T)
-        for index in np.flatnonzero(distance <= self.config.light_distance):
-            light = self._lights[index]
-            if lights[light.id] is not Signal.RED or light.id == self._last_light_run:
-                continue
-            on_approach = shapely.contains_xy(self._approaches[light.lane], *far_tail)
-            along = np.cos(vehicle.yaw - light.yaw) > 0
-            if on_approach and along and self._crosses(light, near_tail, far_tail):
-                self._last_light_run = light.id
-                return light.id
-        return None
-
-    def _crosses(
-        self,
-        light: TrafficLight,
-        near_tail: Float[np.ndarray, "2"],
-        far_tail: Float[np.ndarray, "2"],
-    ) -> bool:
-        middle = light.stop_line.mean(axis=0)
-        watched = middle + 2 * self.config.stop_line_share * (light.stop_line - middle)
-        return bool(
-            shapely.LineString(watched).intersects(shapely.LineString([near_tail, far_tail]))
-        )
-
-    def _is_new_hit(
-        self, hit: tuple[InfractionKind, str], time: float, vehicle: VehicleState
-    ) -> bool:
-        """Whether a touch is a new event: not the same thing within 5 s or 3 m of the last touch."""
-        before = self._last_hit.get(hit)
-        self._last_hit[hit] = (time, vehicle.x, vehicle.y)
-        if before is None:
-            return True
-        moved = np.hypot(vehicle.x - before[1], vehicle.y - before[2])
-        return bool(
-            time - before[0] > self.config.same_hit_time and moved > self.config.same_hit_distance
+            float(vehicle.x + self._centre_ahead * math.cos(vehicle.yaw)),
+            float(vehicle.y + self._centre_ahead * math.sin(vehicle.yaw)),
         )

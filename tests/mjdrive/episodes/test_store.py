@@ -113,8 +113,18 @@ def test_damaged_byte_is_refused_or_without_effect(position: int, flip: int) -> 
 def test_foreign_hdf5_is_refused(tmp_path: Path) -> None:
     with h5py.File(tmp_path / "other.hdf5", "w") as file:
         file["data/demo_0/actions"] = np.zeros((3, 2))
-    with pytest.raises(DataError, match="episode format 'none'; expected 'mjdrive-episode-1'"):
+    with pytest.raises(DataError, match="episode format 'none'; expected 'mjdrive-episode-2'"):
         store.read(tmp_path / "other.hdf5")
+
+
+def test_episode_of_an_older_format_is_refused_by_name(tmp_path: Path) -> None:
+    path = tmp_path / "old.hdf5"
+    store.write(make_episode(), path)
+    with h5py.File(path, "r+") as file:
+        file.attrs["format"] = np.bytes_(b"mjdrive-episode-1")
+    expected = r"old\.hdf5' has episode format 'mjdrive-episode-1'.*Drive or collect it again"
+    with pytest.raises(DataError, match=expected):
+        store.read(path)
 
 
 def test_missing_file_says_what_makes_one(tmp_path: Path) -> None:
@@ -129,5 +139,7 @@ def test_infraction_kinds_keep_their_numbers() -> None:
         "COLLISION",
         "OFF_ROAD",
         "KERB",
+        "WRONG_WAY",
+        "STUCK",
     ]
-    assert Infraction.__slots__ == ("kind", "time", "x", "y", "object")
+    assert Infraction.__slots__ == ("kind", "time", "x", "y", "cause")

@@ -57,7 +57,7 @@ def rules(town: Town, **settings: float) -> Rules:
 def test_crossing_on_red_counts_once_and_names_the_light(town):
     (infraction,) = drive(rules(town), np.arange(40.0, 60.0, 0.5))
     assert infraction.kind is InfractionKind.RED_LIGHT
-    assert infraction.object == "light"
+    assert infraction.cause == "light"
 
 
 def test_guilt_begins_when_the_tail_reaches_the_line(town):
@@ -91,7 +91,7 @@ def test_oncoming_cars_cross_freely(town):
 def test_leaving_the_road_counts_once_for_each_excursion(town):
     watch = rules(town)
     assert kinds(drive(watch, [20.0, 21.0, 22.0], y=2.3)) == [InfractionKind.OFF_ROAD]
-    assert drive(watch, [23.0], y=1.9) == []
+    assert drive(watch, [23.0], y=1.4) == []
     assert kinds(drive(watch, [24.0], y=2.1)) == [InfractionKind.OFF_ROAD]
 
 
