@@ -133,18 +133,21 @@ def curvatures(points: Float[np.ndarray, "N 2"]) -> Float[np.ndarray, " N"]:
     return np.concatenate([inner[:1], inner, inner[-1:]])
 
 
-def offset_polyline(points: Float[np.ndarray, "N 2"], offset: float) -> Float[np.ndarray, "N 2"]:
+def offset_polyline(
+    points: Float[np.ndarray, "N 2"], offset: float | Float[np.ndarray, " N"]
+) -> Float[np.ndarray, "N 2"]:
     """Shift each point of a polyline sideways.
 
     Args:
         points: Polyline [m].
-        offset: Distance, positive to the left of travel [m].
+        offset: Distance, one for all points or one each, positive to the left of travel [m].
 
     Returns:
         As many points, shifted along their normals [m].
     """
     yaw = headings(points)
-    return points + offset * np.stack([-np.sin(yaw), np.cos(yaw)], axis=1)
+    normals = np.stack([-np.sin(yaw), np.cos(yaw)], axis=1)
+    return points + np.reshape(offset, (-1, 1)) * normals
 
 
 def project(

@@ -1,0 +1,143 @@
+"""From an OpenDRIVE map to what is painted on the road and stands beside it."""
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+from jaxtyping import Float
+
+from mjdrive.datatypes import Marking, Sign, StaticObject
+from mjdrive.geometry import offset_polyline, stations, wrap_angle
+from mjdrive.town.lane_geometry import lane_centre, reference_line, section_bounds
+from mjdrive.town.lights import LIGHT_TYPES
+from mjdrive.town.links import SHORTEST_SECTION
+from mjdrive.town.road_map import LaneRecord, Road, RoadMap
+from mjdrive.town.road_shapes import RoadMark
+
+DEFAULT_PAINT_WIDTH = 0.12
+"""Width of a line where the map does not say [m]."""
+
+DEFAULT_DASH = 3.0
+"""Length of a dash and of the gap behind it where the map does not say [m]."""
+
+PAINTED_LINES = {
+    "solid": ("solid",),
+    "broken": ("broken",),
+    "solid solid": ("solid", "solid"),
+    "solid broken": ("solid", "broken"),
+    "broken solid": ("broken", "solid"),
+    "broken broken": ("broken", "broken"),
+}
+"""The lines of each painted OpenDRIVE mark, from the inside out; along the middle of the road from left to right.
+
+Kerbs, grass, dots and edges are no paint.
+"""
+
+SIDEWALK_LANE_TYPES = frozenset({"sidewalk", "walking"})
+"""OpenDRIVE lane types that are sidewalks; the second name is that of OpenDRIVE 1.8."""
+
+
+def markings(road_map: RoadMap) -> tuple[Marking, ...]:
+    """Paint the road marks of a map; a double line is two markings, a width of paint apart."""
+    return tuple(
+        marking
+        for road, index in _sections(road_map)
+        for record in road.sections[index].lanes
+        for marking in _lane_markings(road, index, record)
+    )
+
+
+def signs(road_map: RoadMap) -> tuple[Sign, ...]:
+    """Find the traffic signs of a map: its signals that never change."""
+    found = []
+    for road in road_map.roads.values():
+        for signal in road.signals:
+            if signal.dynamic or signal.type in LIGHT_TYPES:
+                continue
+            point, heading = reference_line(road.pieces, np.array([signal.s]))
+            x, y = point[0] + signal.t * np.array([-np.sin(heading[0]), np.cos(heading[0])])
+            turned = np.pi if signal.orientation == "-" else 0.0
+            yaw = wrap_angle(float(heading[0]) + turned)
+            found.append(
+                Sign(signal.id, signal.type, signal.value, signal.unit, float(x), float(y), yaw)
+            )
+    return tuple(found)
+
+
+def objects(road_map: RoadMap) -> tuple[StaticObject, ...]:
+    """Find the things of a map that cover ground."""
+    return tuple(
+        StaticObject(record.id, record.type, np.array(record.outline), record.height)
+        for road in road_map.roads.values()
+        for record in road.objects
+        if len(record.outline) >= 3
+    )
+
+
+def sidewalks(road_map: RoadMap) -> tuple[Float[np.ndarray, "_ 2"], ...]:
+    """Outline the sidewalks of a map, counter-clockwise [m]."""
+    outlines = []
+    for road, index in _sections(road_map):
+        for record in road.sections[index].lanes:
+            if record.type in SIDEWALK_LANE_TYPES and record.id != 0:
+                points, widths = lane_centre(road, index, record.id)
+                if widths.max() > 0.0:
+                    right, left = (offset_polyline(points, side * widths / 2) for side in (-1, 1))
+                    outlines.append(np.concatenate([right, left[::-1]]))
+    return tuple(outlines)
+
+
+def _sections(road_map: RoadMap) -> Iterator[tuple[Road, int]]:
+    for road in road_map.roads.values():
+        for index in range(len(road.sections)):
+            start, end = section_bounds(road, index)
+            if end - start >= SHORTEST_SECTION:
+                yield road, index
+
+
+def _lane_markings(road: Road, index: int, record: LaneRecord) -> Iterator[Marking]:
+    """Paint the outer edge of a lane, or the middle of the road for lane 0."""
+    if not any(mark.type in PAINTED_LINES for mark in record.marks):
+        return
+    edge = _outer_edge(road, index, record.id)
+    start, end = section_bounds(road, index)
+    along = stations(edge)
+    if along[-1] <= 0.0:
+        return
+    # Marks start at stations of the road; those of its edges are as far along in proportion.
+    ends = np.array([*(mark.start for mark in record.marks), end - start])
+    cuts = np.clip(ends / (end - start), 0.0, 1.0) * along[-1]
+    for mark, (first, last) in zip(record.marks, pairwise(cuts), strict=True):
+        if mark.type in PAINTED_LINES and last - first >= SHORTEST_SECTION:
+            inside = along[(along > first) & (along < last)]
+            wanted = np.concatenate([[first], inside, [last]])
+            line = np.stack([np.interp(wanted, along, edge[:, axis]) for axis in (0, 1)], axis=1)
+            # Inside out: to the right on the right side and along the middle, to the left on the left side.
+            yield from _lines(line, mark, outward=1.0 if record.id > 0 else -1.0)
+
+
+def _outer_edge(road: Road, index: int, lane_id: int) -> Float[np.ndarray, "N 2"]:
+    """Draw the outer edge of a lane along s; that of lane 0 is the inner edge of its neighbour."""
+    side = np.sign(lane_id)
+    if lane_id == 0:
+        inner = next(lane.id for lane in road.sections[index].lanes if abs(lane.id) == 1)
+        points, widths = lane_centre(road, index, inner)
+        return offset_polyline(points, -np.sign(inner) * widths / 2)
+    points, widths = lane_centre(road, index, lane_id)
+    return offset_polyline(points, side * widths / 2)
+
+
+def _lines(line: Float[np.ndarray, "N 2"], mark: RoadMark, *, outward: float) -> Iterator[Marking]:
+    """Lay the lines of a mark side by side around its middle."""
+    kinds = PAINTED_LINES[mark.type]
+    width = mark.width or DEFAULT_PAINT_WIDTH
+    for number, kind in enumerate(kinds):
+        shift = 2.0 * width * (number - 0.5 * (len(kinds) - 1)) * outward
+        is_broken = kind == "broken"
+        yield Marking(
+            points=offset_polyline(line, shift) if shift else line,
+            width=width,
+            color="white" if mark.color == "standard" else mark.color,
+            dash=(mark.dash or DEFAULT_DASH) if is_broken else 0.0,
+            gap=(mark.gap or DEFAULT_DASH) if is_broken else 0.0,
+        )
