@@ -1,19 +1,39 @@
 """Where the lanes of an OpenDRIVE road run."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 import numpy as np
 from jaxtyping import Float
 
-from mjdrive.town.road_map import Road
-from mjdrive.town.road_shapes import Arc, Cubic, Piece
+from mjdrive.errors import TownFormatError
+from mjdrive.town.reference_line import curvature_of, reference_line
+from mjdrive.town.road_map import LaneRecord, Road
+from mjdrive.town.road_shapes import Cubic
+
+__all__ = [
+    "CHORD_ERROR",
+    "LARGEST_GAP",
+    "curvature_of",
+    "evaluate",
+    "lane_centre",
+    "lane_edge",
+    "lane_edges",
+    "reference_line",
+    "section_bounds",
+]
 
 LARGEST_GAP = 0.5
-"""Largest distance between two points of a centre line [m]."""
+"""Largest distance between two points of a line along a lane [m]."""
 
 CHORD_ERROR = 0.0005
-"""Largest distance of the polyline of a reference line from its true arc [m]."""
+"""Largest distance of the polyline of a lane from its true curve [m]."""
+
+_SHORTEST_STEP = 0.001
+"""Where a line jumps no step is short enough; this one ends the search [m]."""
+
+_MOST_POINTS = 300_000
+"""Largest number of points of one line: more than 100 km of road, or a map that oscillates."""
 
 
 def evaluate(cubics: Sequence[Cubic], s: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
@@ -36,40 +56,6 @@ def evaluate(cubics: Sequence[Cubic], s: Float[np.ndarray, " N"]) -> Float[np.nd
     return value
 
 
-def reference_line(
-    pieces: Sequence[Piece], s: Float[np.ndarray, " N"]
-) -> tuple[Float[np.ndarray, "N 2"], Float[np.ndarray, " N"]]:
-    """Evaluate the reference line of a road.
-
-    Args:
-        pieces: Lines and arcs in order.
-        s: Where along the road [m].
-
-    Returns:
-        Points in the world frame, shape (N, 2) [m], and headings, shape (N,) [rad].
-    """
-    starts = np.array([piece.s for piece in pieces])
-    index = np.clip(np.searchsorted(starts, s + 1e-9, side="right") - 1, 0, None)
-    x, y, heading = (
-        np.array([getattr(piece, name) for piece in pieces])[index]
-        for name in ("x", "y", "heading")
-    )
-    curvature = np.array([curvature_of(piece) for piece in pieces])[index]
-    ds = s - starts[index]
-    # A chord of an arc: its length is ds sinc(angle / 2), its direction the mean heading.
-    half_angle = 0.5 * curvature * ds
-    chord = ds * np.sinc(half_angle / np.pi)
-    points = np.stack(
-        [x + chord * np.cos(heading + half_angle), y + chord * np.sin(heading + half_angle)], axis=1
-    )
-    return points, heading + 2.0 * half_angle
-
-
-def curvature_of(piece: Piece) -> float:
-    """Curvature of a line or an arc [1/m]."""
-    return piece.shape.curvature if isinstance(piece.shape, Arc) else 0.0
-
-
 def section_bounds(road: Road, section_index: int) -> tuple[float, float]:
     """Tell where a lane section starts and ends along its road [m]."""
     following = road.sections[section_index + 1 : section_index + 2]
@@ -88,24 +74,135 @@ def lane_centre(
 
     Returns:
         Points in the world frame, shape (N, 2) [m], and widths there, shape (N,) [m].
+
+    Raises:
+        TownFormatError: If the lane bends too sharply to be sampled.
+    """
+
+    def middle(s: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
+        inner, outer = lane_edges(road, section_index, lane_id, s)
+        return 0.5 * (inner + outer)
+
+    s, points = _line_beside(road, section_index, lane_id, middle)
+    inner, outer = lane_edges(road, section_index, lane_id, s)
+    return points, np.abs(outer - inner)
+
+
+def lane_edge(road: Road, section_index: int, lane_id: int) -> Float[np.ndarray, "N 2"]:
+    """Sample the outer edge of a lane in the direction of s; for lane 0 the line between the sides.
+
+    Args:
+        road: Road of the lane.
+        section_index: Index of its lane section.
+        lane_id: Signed lane number.
+
+    Returns:
+        Points in the world frame, shape (N, 2) [m].
+
+    Raises:
+        TownFormatError: If the edge bends too sharply to be sampled.
+    """
+
+    def outer_edge(s: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
+        return lane_edges(road, section_index, lane_id, s)[1]
+
+    return _line_beside(road, section_index, lane_id, outer_edge)[1]
+
+
+def lane_edges(
+    road: Road, section_index: int, lane_id: int, s: Float[np.ndarray, " N"]
+) -> tuple[Float[np.ndarray, " N"], Float[np.ndarray, " N"]]:
+    """Tell where the edges of a lane lie across its road; a negative width counts as 0.
+
+    Args:
+        road: Road of the lane.
+        section_index: Index of its lane section.
+        lane_id: Signed lane number; both edges of lane 0 are the same.
+        s: Where along the road, within the section [m].
+
+    Returns:
+        t of the edge towards lane 0 and t of the other edge, positive to the left [m].
     """
     section = road.sections[section_index]
-    s = _sample(road, section_index)
-    side = np.sign(lane_id)
-    inner = [lane for lane in section.lanes if 0 < lane.id * side < abs(lane_id)]
-    own = next(lane for lane in section.lanes if lane.id == lane_id)
-    width = evaluate(own.widths, s - section.s)
-    distance = sum((evaluate(lane.widths, s - section.s) for lane in inner), 0.5 * width)
-    offset = evaluate(road.lane_offsets, s) + side * distance
-    points, heading = reference_line(road.pieces, s)
-    return points + offset[:, None] * np.stack([-np.sin(heading), np.cos(heading)], axis=1), width
+    inner = outer = evaluate(road.lane_offsets, s)
+    side = 1 if lane_id > 0 else -1
+    for number in range(side, lane_id + side, side) if lane_id else ():
+        lane = section.lane(number)
+        assert lane is not None, f"road '{road.id}' has no lane {number} in section {section_index}"
+        inner, outer = outer, _outer_edge(lane, side, outer, s - section.s)
+    return inner, outer
 
 
-def _sample(road: Road, section_index: int) -> Float[np.ndarray, " N"]:
-    """Choose stations of a section: piece ends, and between them as dense as the bends ask for."""
+def _outer_edge(
+    lane: LaneRecord, side: int, inner: Float[np.ndarray, " N"], ds: Float[np.ndarray, " N"]
+) -> Float[np.ndarray, " N"]:
+    # Where a lane has both, widths count (OpenDRIVE 1.8, 11.6).
+    if lane.widths or not lane.borders:
+        return inner + side * np.maximum(evaluate(lane.widths, ds), 0.0)
+    outer = evaluate(lane.borders, ds)
+    return np.maximum(outer, inner) if side > 0 else np.minimum(outer, inner)
+
+
+def _line_beside(
+    road: Road,
+    section_index: int,
+    lane_id: int,
+    offset_at: Callable[[Float[np.ndarray, " N"]], Float[np.ndarray, " N"]],
+) -> tuple[Float[np.ndarray, " N"], Float[np.ndarray, "N 2"]]:
+    """Sample a line beside the reference line, halving steps until they keep to `CHORD_ERROR` and `LARGEST_GAP`.
+
+    Returns:
+        Stations along the road, shape (N,) [m], and points in the world frame, shape (N, 2) [m].
+    """
+
+    def line(s: Float[np.ndarray, " N"]) -> Float[np.ndarray, "N 2"]:
+        points, heading = reference_line(road.pieces, s)
+        return points + offset_at(s)[:, None] * np.stack([-np.sin(heading), np.cos(heading)], 1)
+
+    s = _first_stations(road, section_index, lane_id)
+    points = line(s)
+    untried = np.ones(len(s) - 1, dtype=bool)
+    while untried.any():
+        left, right = s[:-1][untried], s[1:][untried]
+        quarters = np.linspace(left, right, 5)[1:-1]  # (3, step)
+        between = line(quarters.ravel()).reshape(3, -1, 2)
+        is_split = (right - left > _SHORTEST_STEP) & _is_too_long(
+            points[:-1][untried], points[1:][untried], between
+        )
+        at = np.flatnonzero(untried)[is_split] + 1
+        s = np.insert(s, at, quarters[1, is_split])
+        points = np.insert(points, at, between[1, is_split], axis=0)
+        if len(s) > _MOST_POINTS:
+            raise TownFormatError(
+                f"Lane {lane_id} of road '{road.id}' needs more than {_MOST_POINTS} points to be drawn. Check its "
+                "width, its lane offset and the geometry of the road."
+            )
+        untried = np.zeros(len(s) - 1, dtype=bool)
+        new = at + np.arange(len(at))
+        untried[new - 1] = untried[new] = True
+    return s, points
+
+
+def _is_too_long(
+    left: Float[np.ndarray, "N 2"],
+    right: Float[np.ndarray, "N 2"],
+    between: Float[np.ndarray, "3 N 2"],
+) -> np.ndarray:
+    """Tell which chords are too long, or too far from the curve at a quarter, a half or three quarters."""
+    chord = right - left
+    length = np.hypot(*chord.T)
+    share = np.einsum("qni,ni->qn", between - left, chord) / np.maximum(length, 1e-12) ** 2
+    foot = left + np.clip(share, 0.0, 1.0)[:, :, None] * chord
+    away = np.hypot(*np.moveaxis(between - foot, -1, 0))
+    # The largest deviation of an S-shaped step is 3 % more than at its quarters.
+    limits = CHORD_ERROR * np.array([0.95, 1.0, 0.95])[:, None]
+    return (length > LARGEST_GAP * (1.0 + 1e-6)) | (away > limits).any(axis=0)
+
+
+def _first_stations(road: Road, section_index: int, lane_id: int) -> Float[np.ndarray, " N"]:
+    """Choose stations of a section: where pieces and cubics start, and between them as dense as arcs ask for."""
     start, end = section_bounds(road, section_index)
-    ends = [piece.s for piece in road.pieces if start < piece.s < end]
-    knots = [start, *ends, end]
+    knots = [start, *(piece.s for piece in road.pieces if start < piece.s < end), end]
     stations = [np.array([start])]
     for left, right in pairwise(knots):
         if right - left < 1e-6:
@@ -113,6 +210,22 @@ def _sample(road: Road, section_index: int) -> Float[np.ndarray, " N"]:
         piece = max((p for p in road.pieces if p.s <= 0.5 * (left + right)), key=lambda p: p.s)
         gap = LARGEST_GAP
         if curvature := curvature_of(piece):
-            gap = min(gap, np.sqrt(8.0 * CHORD_ERROR / abs(curvature)))
+            gap = min(gap, max(np.sqrt(8.0 * CHORD_ERROR / abs(curvature)), _SHORTEST_STEP))
         stations.append(np.linspace(left, right, int(np.ceil((right - left) / gap)) + 1)[1:])
-    return np.concatenate(stations)
+    s = np.concatenate(stations)
+    breaks = np.array(_breaks(road, section_index, lane_id))
+    breaks = breaks[(breaks > start) & (breaks < end)]
+    nearest = np.abs(s[:, None] - breaks).min(axis=0) if len(breaks) else breaks
+    return np.union1d(s, breaks[nearest > 1e-6])
+
+
+def _breaks(road: Road, section_index: int, lane_id: int) -> list[float]:
+    """Where the cubics start that place a lane."""
+    section = road.sections[section_index]
+    within = [
+        section.s + cubic.start
+        for lane in section.lanes
+        if 0 < lane.id * np.sign(lane_id) <= abs(lane_id)
+        for cubic in (*lane.widths, *lane.borders)
+    ]
+    return sorted({cubic.start for cubic in road.lane_offsets} | set(within))

@@ -21,7 +21,7 @@ class LaneRecord:
         predecessor: Lane id at the start, on what lies before.
         successor: Lane id at the end, on what lies behind.
         marks: Marks along the outer edge, in order of their starts.
-        borders: Outer edge from lane 0, positive to the left; used where there are no `widths`.
+        borders: Outer edge from the reference line, positive to the left; used where there are no `widths`.
         direction: Travel: "standard" with the rule of the road, "reversed" against it, or "both".
     """
 
