@@ -1,6 +1,10 @@
 """Shortest ways along the lanes of a town."""
 
 import heapq
+import math
+from collections.abc import Mapping
+from functools import lru_cache
+from types import MappingProxyType
 from typing import NamedTuple
 
 from mjdrive.datatypes import Lane, Town
@@ -34,6 +38,37 @@ class Leg(NamedTuple):
 def lane_length(lane: Lane) -> float:
     """Length of a lane along its centre line [m]."""
     return float(stations(lane.centerline)[-1])
+
+
+@lru_cache(maxsize=4)
+def onward(town: Town) -> Mapping[str, float]:
+    """Tell how far one can drive on beyond the end of each lane.
+
+    Args:
+        town: The town.
+
+    Returns:
+        Length of the longest way by lane name, infinite where lanes lead round in a circle [m].
+    """
+    before: dict[str, list[str]] = {name: [] for name in town.lanes}
+    open_ways = {name: len(set(lane.successors)) for name, lane in town.lanes.items()}
+    for name, lane in town.lanes.items():
+        for following in set(lane.successors):
+            before[following].append(name)
+    farthest = dict.fromkeys(town.lanes, 0.0)
+    # From the dead ends back; what is never reached so leads into a circle.
+    done = [name for name, ways in open_ways.items() if ways == 0]
+    for name in done:
+        length = lane_length(town.lanes[name]) + farthest[name]
+        for behind in before[name]:
+            farthest[behind] = max(farthest[behind], length)
+            open_ways[behind] -= 1
+            if open_ways[behind] == 0:
+                done.append(behind)
+    ended = set(done)
+    return MappingProxyType(
+        {name: farthest[name] if name in ended else math.inf for name in town.lanes}
+    )
 
 
 class LaneGraph:

@@ -1,8 +1,6 @@
 """Routes along the lanes of a town."""
 
-from collections.abc import Sequence
 from functools import lru_cache
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -10,22 +8,15 @@ from jaxtyping import Float
 
 from mjdrive.datatypes import Route, Town
 from mjdrive.errors import RouteError, UnknownNameError
-from mjdrive.geometry import (
-    Projection,
-    curvatures,
-    headings,
-    project,
-    resample,
-    stations,
-    wrap_angle,
-)
-from mjdrive.town.lane_graph import LaneGraph, Place, lane_length
-
-POINT_SPACING = 1.0
-"""Distance between the points of a route [m]."""
+from mjdrive.geometry import Projection, project, wrap_angle
+from mjdrive.town.lane_graph import LaneGraph, Place, lane_length, onward
+from mjdrive.town.route_line import lay
 
 _METRES_PER_RADIAN = 1.0
 """How far a lane may lie further off when its heading fits better by one radian [m/rad]."""
+
+_ROUNDING = 1e-6
+"""Lengths that are added up in another order may differ by this [m]."""
 
 _CLEAR_BEFORE_JUNCTION = 15.0
 """Least distance from a random start to the end of its lane [m]."""
@@ -104,13 +95,15 @@ def route_through(town: Town, waypoints: Float[np.ndarray, "K 2"]) -> Route:
                 f"{_text(waypoints[index - 1])} along the lanes. Check the side of the road that it lies on."
             )
     best = min(ways, key=lambda way: way.cost)
-    return _route(town, best.lanes, start=best.start.station, end=best.end.station)
+    return lay(town, best.lanes, start=best.start.station, end=best.end.station)
 
 
 def random_route(
     town: Town, *, lane: str, station: float, length: float, rng: np.random.Generator
 ) -> Route:
     """Follow the lanes, choosing each way at a junction with the same probability.
+
+    Ways that come to a dead end before the route is long enough are left out.
 
     Args:
         town: The town.
@@ -124,7 +117,7 @@ def random_route(
 
     Raises:
         UnknownNameError: If there is no such lane.
-        RouteError: If the station is not on the lane or the lanes come to a dead end.
+        RouteError: If the station is not on the lane, or every way comes to a dead end too soon.
     """
     if lane not in town.lanes:
         raise UnknownNameError("lane", lane, town.lanes)
@@ -132,21 +125,29 @@ def random_route(
         raise RouteError(
             f"Station {station} m is not on lane '{lane}'; expected 0 to {lane_length(town.lanes[lane]):.2f} m."
         )
-    chain = [lane]
+    ahead = onward(town)
     left = length - (lane_length(town.lanes[lane]) - station)
+    if ahead[lane] < left:
+        raise RouteError(
+            f"From station {station} m of lane '{lane}' the lanes lead on for {length - left + ahead[lane]:.1f} m; "
+            f"expected {length} m."
+        )
+    chain = [lane]
     while left > 0.0:
-        successors = town.lanes[chain[-1]].successors
-        if not successors:
-            raise RouteError(
-                f"Lane '{chain[-1]}' is a dead end after {length - left:.1f} m of {length} m."
-            )
-        chain.append(successors[int(rng.integers(len(successors)))])
+        ways = [
+            name
+            for name in town.lanes[chain[-1]].successors
+            if lane_length(town.lanes[name]) + ahead[name] >= left - _ROUNDING
+        ]
+        chain.append(ways[int(rng.integers(len(ways)))])
         left -= lane_length(town.lanes[chain[-1]])
-    return _route(town, chain, start=station, end=lane_length(town.lanes[chain[-1]]) + left)
+    return lay(town, chain, start=station, end=lane_length(town.lanes[chain[-1]]) + left)
 
 
 def random_start(town: Town, rng: np.random.Generator) -> tuple[str, float]:
     """Draw a place to start, uniform over the lanes outside junctions, 15 m or more before their ends.
+
+    Lanes from which every way comes to a dead end are left out, unless the town has no others.
 
     Args:
         town: The town.
@@ -167,6 +168,8 @@ def random_start(town: Town, rng: np.random.Generator) -> tuple[str, float]:
         raise RouteError(
             f"Town '{town.name}' has no lane outside junctions longer than {_CLEAR_BEFORE_JUNCTION} m."
         )
+    ahead = onward(town)
+    room = {name: length for name, length in room.items() if np.isinf(ahead[name])} or room
     names = list(room)
     ends = np.cumsum([room[name] for name in names])
     draw = rng.uniform(0.0, ends[-1])
@@ -212,31 +215,3 @@ def _places(town: Town, index: int, waypoint: Float[np.ndarray, "2"]) -> list[tu
 
 def _text(point: Float[np.ndarray, "2"]) -> str:
     return f"({point[0]:.1f}, {point[1]:.1f})"
-
-
-def _route(town: Town, chain: Sequence[str], *, start: float, end: float) -> Route:
-    """Lay points along a chain of lanes, from a station on the first to a station on the last."""
-    lines = [town.lanes[name].centerline for name in chain]
-    ends = np.cumsum([stations(line)[-1] for line in lines])
-    for first, second in pairwise(chain):
-        assert second in town.lanes[first].successors, f"{second} does not follow {first}"
-    line = np.concatenate([lines[0], *(line[1:] for line in lines[1:])])
-    station = stations(line)
-    stop = (ends[-2] if len(ends) > 1 else 0.0) + end
-    if stop - start < POINT_SPACING:
-        raise RouteError(
-            f"The route is {stop - start:.2f} m long; expected at least {POINT_SPACING} m."
-        )
-    inside = (station > start + 1e-9) & (station < stop - 1e-9)
-    cut = np.concatenate([[start], station[inside], [stop]])
-    trimmed = np.stack([np.interp(cut, station, line[:, axis]) for axis in (0, 1)], axis=1)
-    points = resample(trimmed, POINT_SPACING)
-    along = np.minimum(POINT_SPACING * np.arange(len(points)), stop - start)
-    return Route(
-        lanes=tuple(chain),
-        points=points,
-        station=along,
-        yaw=headings(points),
-        curvature=curvatures(points),
-        lane_index=np.searchsorted(ends[:-1], along + start + 1e-9, side="right"),
-    )

@@ -14,7 +14,8 @@ import numpy as np
 from mjdrive.config import require, write_json
 from mjdrive.datatypes import Town
 from mjdrive.errors import NameTakenError, RouteError
-from mjdrive.town import library, routing
+from mjdrive.town import library
+from mjdrive.town.demonstrations import demonstration_routes
 from mjdrive.town.settings import TownSettings
 
 NUM_ROUTES = 10
@@ -96,7 +97,7 @@ def fill(folder: Path, document: bytes, settings: TownSettings, *, seed: int) ->
     if settings.routes:
         return town
     try:
-        routes = routing.demonstration_routes(
+        routes = demonstration_routes(
             town, num_routes=NUM_ROUTES, length=ROUTE_LENGTH, rng=np.random.default_rng(seed)
         )
     except RouteError:

@@ -188,7 +188,9 @@ def test_a_waypoint_that_cannot_be_reached_is_named(dead_end: Town) -> None:
 
 
 def test_a_random_route_into_a_dead_end_is_refused(dead_end: Town) -> None:
-    with pytest.raises(RouteError, match=r"'1/0/-1' is a dead end after 33\.0 m of 100\.0 m"):
+    with pytest.raises(
+        RouteError, match=r"'1/0/-1' the lanes lead on for 33\.0 m; expected 100\.0 m"
+    ):
         routing.random_route(
             dead_end, lane="1/0/-1", station=5.0, length=100.0, rng=np.random.default_rng(0)
         )
