@@ -1,21 +1,23 @@
-"""Town + pose + time -> the five channels that a policy sees. A pure function: nothing is remembered between calls.
+"""Town + pose + time -> the channels that a policy sees. A pure function: nothing is remembered between calls.
 
 Source of the conventions: Roach's chauffeurnet renderer and the paper's configuration of it (five channels, history
 -16, -9, -1 at 10 Hz; docs/decisions.md); the rasters are drawn once, every frame is one affine warp.
 """
 
-import cv2
+from collections.abc import Sequence
+
 import numpy as np
 from jaxtyping import Float, UInt8
 
-from mjdrive import geometry
-from mjdrive.bev.layers import LIGHT_LAYERS, LIGHT_VALUES, MARKED, Layer
+from mjdrive.bev.extras import draw_route, draw_vehicles, scenery_rasters
+from mjdrive.bev.layers import channel_names
+from mjdrive.bev.rasters import draw_lanes
+from mjdrive.bev.stop_lines import StopLines
 from mjdrive.config import BevConfig
 from mjdrive.datatypes import Town
-from mjdrive.town import signals
-
-_MARGIN = 15.0
-"""Empty border of the town raster [m]."""
+from mjdrive.errors import ConfigError
+from mjdrive.town.blocks import Block
+from mjdrive.town.scenery import Scenery
 
 
 class BevProjector:
@@ -25,23 +27,42 @@ class BevProjector:
         town: Road network to draw.
         control_interval: Time between two decisions, the unit of the light history [s].
         config: How the view is drawn.
+        scenery: What stands beside the roads, for the extra layers "sidewalks" and "buildings".
+
+    Attributes:
+        config: How the view is drawn.
+        channels: Name of each channel, in order.
+
+    Raises:
+        ConfigError: If an extra layer shows scenery and none is given.
     """
 
     def __init__(
-        self, town: Town, *, control_interval: float = 0.1, config: BevConfig | None = None
+        self,
+        town: Town,
+        *,
+        control_interval: float = 0.1,
+        config: BevConfig | None = None,
+        scenery: Scenery | None = None,
     ) -> None:
         self.config = config or BevConfig()
-        self._history = [steps * control_interval for steps in self.config.history_steps]
-        self._lights = tuple(town.lights.values())
-        self._light_lines_world = np.array(
-            [_drawn_line(town, light.id, self.config) for light in self._lights]
-        )
-        self._raster_from_world = _raster_from_world(town, self.config.pixels_per_metre)
-        self._rasters = _draw_town(town, self._raster_from_world, self.config)
+        self.channels = channel_names(self.config)
+        self._rasters = draw_lanes(town, self.config)
+        self._rasters += scenery_rasters(town, scenery, self.channels, self.config)
+        self._stop_lines = StopLines(town, control_interval=control_interval, config=self.config)
+        self._view_from_vehicle = _view_from_vehicle(self.config)
 
     def project(
-        self, *, x: float, y: float, yaw: float, time: float, light_phase: float
-    ) -> UInt8[np.ndarray, "5 H W"]:
+        self,
+        *,
+        x: float,
+        y: float,
+        yaw: float,
+        time: float,
+        light_phase: float,
+        route: Float[np.ndarray, "N 2"] | None = None,
+        vehicles: Sequence[Block] = (),
+    ) -> UInt8[np.ndarray, "C S S"]:
         """Draw what the car sees.
 
         Args:
@@ -50,86 +71,72 @@ class BevProjector:
             yaw: Heading [rad].
             time: Simulation time since reset [s]; the light history does not reach before 0.
             light_phase: Time into the light cycle at reset [s].
+            route: Points of the way to go, world frame, for the extra layer "route" [m].
+            vehicles: Other vehicles as boxes, for the extra layer "vehicles".
 
         Returns:
-            Channels in the order of `layers.Layer`, row 0 farthest ahead, column 0 farthest left.
+            Channels in the order of `channels`, row 0 farthest ahead, column 0 farthest left.
+
+        Raises:
+            ConfigError: If a route or vehicles are given without their layer, or the layer without a route.
         """
-        size = self.config.size_px
-        view_from_world = self._view_from_world(x, y, yaw)
-        view_from_raster = view_from_world @ np.linalg.inv(self._raster_from_world)
-        bev = np.zeros((len(Layer), size, size), np.uint8)
-        for layer, raster in self._rasters.items():
-            warped = cv2.warpAffine(raster, view_from_raster[:2], (size, size))
-            # Any touched pixel counts, as in the original, so thin lines stay unbroken at every angle.
-            cv2.threshold(warped, 0, MARKED, cv2.THRESH_BINARY, dst=bev[layer])
-        self._draw_lights(bev, view_from_world, time, light_phase)
+        self._refuse_misfits(route, vehicles)
+        view_from_world = self.view_from_world(x=x, y=y, yaw=yaw)
+        bev = np.zeros((len(self.channels), self.config.size_px, self.config.size_px), np.uint8)
+        for raster in self._rasters:
+            raster.draw(bev, view_from_world)
+        ahead = self.config.origin_ahead_of_rear_axle
+        self._stop_lines.draw(
+            bev,
+            view_from_world,
+            ego_world=(x + ahead * np.cos(yaw), y + ahead * np.sin(yaw)),
+            time=time,
+            light_phase=light_phase,
+        )
+        if route is not None:
+            draw_route(bev[self.channels.index("route")], view_from_world, route)
+        if vehicles:
+            draw_vehicles(bev[self.channels.index("vehicles")], view_from_world, vehicles)
         return bev
 
-    def _view_from_world(self, x: float, y: float, yaw: float) -> Float[np.ndarray, "3 3"]:
-        scale = self.config.pixels_per_metre
+    def view_from_world(self, *, x: float, y: float, yaw: float) -> Float[np.ndarray, "3 3"]:
+        """Tell where a view shows the world: `view_from_world @ (x, y, 1)` is (column, row, 1).
+
+        Whole numbers are the middles of pixels; column 0 is farthest left, row 0 farthest ahead.
+
+        Args:
+            x: Rear-axle centre of the car, world frame [m].
+            y: Rear-axle centre of the car, world frame [m].
+            yaw: Heading of the car [rad].
+
+        Returns:
+            Homogeneous transform from the world frame [m] to the view [px].
+        """
         cos, sin = np.cos(yaw), np.sin(yaw)
-        ahead = self.config.origin_ahead_of_rear_axle
-        column = self.config.size_px / 2
-        row = self.config.size_px - self.config.ego_above_bottom_px + scale * ahead
-        # vehicle y is left of the car: columns fall with y, rows fall with x.
-        view_from_vehicle = np.array([[0.0, -scale, column], [-scale, 0.0, row], [0.0, 0.0, 1.0]])
         vehicle_from_world = np.array(
             [[cos, sin, -cos * x - sin * y], [-sin, cos, sin * x - cos * y], [0.0, 0.0, 1.0]]
         )
-        return view_from_vehicle @ vehicle_from_world
+        return self._view_from_vehicle @ vehicle_from_world
 
-    def _draw_lights(
-        self,
-        bev: UInt8[np.ndarray, "5 H W"],
-        view_from_world: Float[np.ndarray, "3 3"],
-        time: float,
-        light_phase: float,
+    def _refuse_misfits(
+        self, route: Float[np.ndarray, "N 2"] | None, vehicles: Sequence[Block]
     ) -> None:
-        lines = self._light_lines_world @ view_from_world[:2, :2].T + view_from_world[:2, 2]
-        size, margin = self.config.size_px, self.config.light_thickness_px
-        seen = np.all((lines.max(axis=1) > -margin) & (lines.min(axis=1) < size + margin), axis=1)
-        for index in np.flatnonzero(seen):
-            start, end = np.rint(lines[index]).astype(int).tolist()
-            for layer, age in zip(LIGHT_LAYERS, self._history, strict=True):
-                shown = signals.at(self._lights[index], max(time - age, 0.0) + light_phase)
-                cv2.line(
-                    bev[layer], start, end, LIGHT_VALUES[shown], self.config.light_thickness_px
-                )
+        if (route is not None) != ("route" in self.channels):
+            raise ConfigError(
+                f"A view of {', '.join(self.channels)} was asked for "
+                f"{'without' if route is None else 'with'} a route; expected a route exactly where "
+                f"BevConfig.extra_layers has 'route'."
+            )
+        if vehicles and "vehicles" not in self.channels:
+            raise ConfigError(
+                f"{len(vehicles)} vehicles were given to a view of {', '.join(self.channels)}; "
+                f"add 'vehicles' to BevConfig.extra_layers."
+            )
 
 
-def _drawn_line(town: Town, light_id: str, config: BevConfig) -> Float[np.ndarray, "2 2"]:
-    """The part of a stop line that is drawn: a share of the lane width about its middle [m]."""
-    stop_line = town.lights[light_id].stop_line
-    return stop_line.mean(axis=0) + config.light_width_share * (stop_line - stop_line.mean(axis=0))
-
-
-def _raster_from_world(town: Town, pixels_per_metre: float) -> Float[np.ndarray, "3 3"]:
-    """Map world coordinates [m] to (column, row) of the town raster [px], north up."""
-    left, _, _, top = town.bounds + np.array([-1, -1, 1, 1]) * _MARGIN
-    scale = pixels_per_metre
-    return np.array([[scale, 0.0, -scale * left], [0.0, -scale, scale * top], [0.0, 0.0, 1.0]])
-
-
-def _draw_town(
-    town: Town, raster_from_world: Float[np.ndarray, "3 3"], config: BevConfig
-) -> dict[Layer, UInt8[np.ndarray, "H W"]]:
-    """Draw road and lane lines of a whole town, once."""
-    extent = (town.bounds[2:] - town.bounds[:2] + 2 * _MARGIN) * config.pixels_per_metre
-    width_px, height_px = np.ceil(extent).astype(int).tolist()
-    road = np.zeros((height_px, width_px), np.uint8)
-    lane_lines = np.zeros((height_px, width_px), np.uint8)
-
-    def to_pixels(points: Float[np.ndarray, "N 2"]) -> np.ndarray:
-        raster = points @ raster_from_world[:2, :2].T + raster_from_world[:2, 2]
-        return np.rint(raster).astype(np.int32)
-
-    for lane in town.lanes.values():
-        edges = [
-            geometry.offset_polyline(lane.centerline, side * lane.width / 2) for side in (1, -1)
-        ]
-        outline = to_pixels(np.concatenate([edges[0], edges[1][::-1]]))
-        cv2.fillPoly(road, [outline], MARKED)
-        cv2.polylines(road, [outline], True, MARKED, config.road_outline_px)
-        if lane.junction is None:
-            cv2.polylines(lane_lines, [to_pixels(edge) for edge in edges], False, MARKED, 1)
-    return {Layer.ROAD: road, Layer.LANE_LINES: lane_lines}
+def _view_from_vehicle(config: BevConfig) -> Float[np.ndarray, "3 3"]:
+    scale = config.pixels_per_metre
+    column = config.size_px / 2
+    row = config.size_px - config.ego_above_bottom_px + scale * config.origin_ahead_of_rear_axle
+    # vehicle y is left of the car: columns fall with y, rows fall with x.
+    return np.array([[0.0, -scale, column], [-scale, 0.0, row], [0.0, 0.0, 1.0]])
