@@ -14,29 +14,6 @@ _SIDES = {"left": 1, "center": 0, "right": -1}
 
 _DIRECTIONS = ("standard", "reversed", "both")
 
-USED_LANE_TYPES = frozenset(
-    [
-        "driving",
-        "bidirectional",
-        "entry",
-        "exit",
-        "onRamp",
-        "offRamp",
-        "connectingRamp",
-        "slipLane",
-        "sidewalk",
-        "walking",
-        "shoulder",
-        "border",
-        "median",
-        "curb",
-        "stop",
-        "restricted",
-        "none",
-    ]
-)
-"""Types of lanes that mjdrive drives on, draws, or takes for ground beside the road."""
-
 _SHORTEST_SECTION = 1e-6
 """Shortest lane section [m]."""
 
@@ -124,16 +101,13 @@ def _read_lane(fields: XmlFields, element: Element, sign: int) -> LaneRecord:
         borders = _read_cubics(fields, fields.each(element, "border"), "sOffset")
     if number and not (widths or borders):
         fields.fail(element, "has no <width> and no <border>; expected one of them.")
-    kind = fields.text(element, "type")
-    if number and kind not in USED_LANE_TYPES:
-        fields.note(f"lane type '{kind}'")
     direction = fields.optional(element, "direction", "standard")
     if direction not in _DIRECTIONS:
         fields.note(f"lane direction '{direction}'")
         direction = "standard"
     return LaneRecord(
         id=number,
-        type=kind,
+        type=fields.text(element, "type"),
         widths=widths,
         predecessor=_read_lane_link(fields, element, "predecessor"),
         successor=_read_lane_link(fields, element, "successor"),

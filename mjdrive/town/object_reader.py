@@ -12,38 +12,6 @@ from mjdrive.town.road_shapes import Piece
 from mjdrive.town.signal_reader import read_station
 from mjdrive.town.xml_fields import Element, XmlFields
 
-OBJECT_TYPES = frozenset(
-    [
-        "barrier",
-        "bike",
-        "building",
-        "bus",
-        "car",
-        "crosswalk",
-        "gantry",
-        "motorbike",
-        "obstacle",
-        "parkingSpace",
-        "patch",
-        "pedestrian",
-        "pole",
-        "railing",
-        "roadMark",
-        "roadSurface",
-        "soundBarrier",
-        "streetLamp",
-        "trafficIsland",
-        "trailer",
-        "train",
-        "tram",
-        "tree",
-        "van",
-        "vegetation",
-        "wind",
-    ]
-)
-"""Types that OpenDRIVE names."""
-
 _ROUND = np.linspace(0.0, 2.0 * np.pi, 16, endpoint=False)
 """Directions of the corners of a round object [rad]."""
 
@@ -80,8 +48,6 @@ def _read_object(
     fields: XmlFields, element: Element, length: float, pieces: Sequence[Piece]
 ) -> ObjectRecord:
     kind = fields.optional(element, "type", "none")
-    if kind not in OBJECT_TYPES:
-        fields.note(f"object type '{kind}'")
     s, t = read_station(fields, element, length), fields.number(element, "t")
     heading = fields.number(element, "hdg", 0.0)
     origin, yaw = _place(pieces, s, t)

@@ -5,11 +5,38 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from mjdrive.town.flattening import Flattening
+from mjdrive.town.furniture import PAINTED_LINES, SIDEWALK_LANE_TYPES
+from mjdrive.town.lights import LIGHT_TYPES
+from mjdrive.town.links import DRIVEN_LANE_TYPES
 from mjdrive.town.road_map import RoadMap
+from mjdrive.town.roadside import SPEED_LIMIT_TYPE
 from mjdrive.town.xml_fields import Element, XmlFields
 
+GROUND_LANE_TYPES = frozenset(
+    {"shoulder", "border", "median", "curb", "stop", "restricted", "none"}
+)
+"""OpenDRIVE lane types that are only ground beside the road, where nobody drives or walks."""
+
+OBJECT_TYPES = frozenset(
+    "barrier bike building bus car crosswalk gantry motorbike obstacle parkingSpace patch pedestrian pole "
+    "railing roadMark roadSurface soundBarrier streetLamp trafficIsland trailer train tram tree van "
+    "vegetation wind".split()
+)
+"""OpenDRIVE object types."""
+
+_UNDERSTOOD = {
+    "lane": DRIVEN_LANE_TYPES | SIDEWALK_LANE_TYPES | GROUND_LANE_TYPES,
+    "signal": LIGHT_TYPES | {SPEED_LIMIT_TYPE},
+    "object": OBJECT_TYPES,
+    "road mark": frozenset(PAINTED_LINES) | {"none", "curb"},
+}
+"""Types that mean something to mjdrive."""
+
+_NAMES = frozenset({"id", "name"})
+"""Attributes that only tell things apart; they are not missed."""
+
 _WITHOUT_MEANING = frozenset({"", "none", "false", "no", "standard", "-1", "undefined"})
-"""Values of attributes that say nothing; they are not missed."""
+"""Values of attributes that say nothing; they are not missed either."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,25 +85,41 @@ def make_report(
     Returns:
         The report.
     """
-    roads = road_map.roads.values()
-    lanes = Counter(
-        lane.type
-        for road in roads
-        for section in road.sections
-        for lane in section.lanes
-        if lane.id != 0
-    )
+    types = _types(road_map)
     return ReadReport(
         source=fields.source,
         version=version,
-        roads=len(roads),
+        roads=len(road_map.roads),
         junctions=len(road_map.junctions),
-        length=sum(road.length for road in roads),
-        lanes=_sorted(lanes),
-        signals=_sorted(Counter(signal.type for road in roads for signal in road.signals)),
-        objects=_sorted(Counter(thing.type for road in roads for thing in road.objects)),
-        not_used=_sorted(_left_over(root, fields) + fields.notes),
+        length=sum(road.length for road in road_map.roads.values()),
+        lanes=_sorted(types["lane"]),
+        signals=_sorted(types["signal"]),
+        objects=_sorted(types["object"]),
+        not_used=_sorted(_left_over(root, fields) + fields.notes + _without_meaning(types)),
         flattened=flattened,
+    )
+
+
+def _types(road_map: RoadMap) -> dict[str, Counter[str]]:
+    """Count lanes, signals, objects and road marks by their types."""
+    roads = road_map.roads.values()
+    lanes = [lane for road in roads for section in road.sections for lane in section.lanes]
+    return {
+        "lane": Counter(lane.type for lane in lanes if lane.id != 0),
+        "signal": Counter(signal.type for road in roads for signal in road.signals),
+        "object": Counter(thing.type for road in roads for thing in road.objects),
+        "road mark": Counter(mark.type for lane in lanes for mark in lane.marks),
+    }
+
+
+def _without_meaning(types: Mapping[str, Counter[str]]) -> Counter[str]:
+    return Counter(
+        {
+            f"{kind} type '{name}'": count
+            for kind, counts in types.items()
+            for name, count in counts.items()
+            if name not in _UNDERSTOOD[kind]
+        }
     )
 
 
@@ -89,7 +132,7 @@ def _left_over(root: Element, fields: XmlFields) -> Counter[str]:
         if element not in fields.used:
             found[path] += 1
             continue
-        asked = fields.asked[element.tag]
+        asked = fields.asked[element.tag] | _NAMES
         for name, value in element.attrib.items():
             if name not in asked and _says_something(value):
                 found[f"{path}@{name}"] += 1

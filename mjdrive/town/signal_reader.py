@@ -6,9 +6,6 @@ from itertools import pairwise
 from mjdrive.town.road_map import LaneSection, SignalRecord, SignalReference
 from mjdrive.town.xml_fields import Element, XmlFields
 
-USED_SIGNAL_TYPES = frozenset({"1000001", "274"})
-"""Signals that mean something here: lights of three colours and speed limits."""
-
 
 def read_signals(
     fields: XmlFields,
@@ -35,9 +32,6 @@ def read_signals(
     """
     signals = []
     for element in fields.each(road, "signals", "signal"):
-        kind = fields.text(element, "type")
-        if kind not in USED_SIGNAL_TYPES:
-            fields.note(f"signal type '{kind}'")
         s = read_station(fields, element, length)
         orientation = _read_orientation(fields, element)
         forward = _lanes_at(sections, s, orientation, drives_on_left=drives_on_left)
@@ -46,7 +40,7 @@ def read_signals(
             SignalRecord(
                 id=fields.text(element, "id"),
                 name=fields.optional(element, "name"),
-                type=kind,
+                type=fields.text(element, "type"),
                 s=s,
                 t=fields.number(element, "t"),
                 orientation=orientation,

@@ -1,5 +1,7 @@
 """A small town for tests: a rectangle of streets with one street across."""
 
+from pathlib import Path
+
 import pytest
 from hypothesis import settings
 
@@ -88,3 +90,9 @@ def map_bytes(road_map: RoadMap) -> bytes:
 def ladder(road_map: RoadMap) -> Town:
     """The small town."""
     return build_town(road_map, name="ladder", timing=LightTiming(), digest="")
+
+
+@pytest.fixture(scope="session")
+def rich_bytes() -> bytes:
+    """A small map by hand that uses every feature that is read."""
+    return Path(__file__).with_name("rich.xodr").read_bytes()
