@@ -1,40 +1,23 @@
-"""Pictures of drives and data sets: PNG, the same bytes for the same drive, drawn without a display."""
+"""Maps of drives and data sets: PNG, the same bytes for the same drive, drawn without a display."""
 
-import io
 import math
 from collections.abc import Mapping
 from pathlib import Path
 
 import matplotlib.style
 import numpy as np
-from jaxtyping import Bool
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
-from mjdrive.datatypes import Episode, InfractionKind, Town
+from mjdrive.datatypes import Episode, Town
 from mjdrive.evaluation import metrics
-from mjdrive.files import write_atomically
+from mjdrive.evaluation.figure_style import STYLE, SYMBOLS, save, title
 from mjdrive.town.surface import lane_polygons
 
-STYLE = {
-    "font.size": 9.0,
-    "axes.titlesize": 10.0,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "figure.dpi": 150.0,
-    "savefig.dpi": 150.0,
-}
-"""On top of matplotlib's defaults, so that a user's own style does not change the bytes."""
-
-SYMBOLS = {
-    InfractionKind.RED_LIGHT: ("red light run", "X", "#d1242f"),
-    InfractionKind.COLLISION: ("collision", "*", "#8250df"),
-    InfractionKind.OFF_ROAD: ("left the road", "s", "#bc4c00"),
-    InfractionKind.KERB: ("kerb struck", "^", "#0969da"),
-}
-"""Legend text, marker and colour of each kind of infraction."""
+SYMBOL_SPACING, SMALL_SPACING = 0.022, 0.04
+"""Least distance between symbols on a map and on a small map, over the larger side of the map [-]."""
 
 MARGIN = 12.0
 """Ground shown around the lanes [m]."""
@@ -55,48 +38,12 @@ def draw_trajectory(episode: Episode, town: Town, path: Path) -> None:
         _draw_town(axes, town)
         line = _draw_path(axes, episode, line_width=2.2)
         _draw_ends(axes, episode)
-        _draw_infractions(axes, episode)
-        axes.set(xlabel="x, east [m]", ylabel="y, north [m]", title=_title(episode, town))
+        _draw_infractions(axes, episode, town)
+        axes.set(xlabel="x, east [m]", ylabel="y, north [m]", title=title(episode))
         figure.colorbar(line, ax=axes, label="time [s]", shrink=0.7, pad=0.02)
         if len(episode.time):
-            figure.legend(loc="outside lower center", ncols=6, frameon=False)
-        _save(figure, path)
-
-
-def draw_actions(episode: Episode, town: Town, path: Path) -> None:
-    """Draw speed, acceleration and steering of a drive over time; waiting at a light is shaded.
-
-    Args:
-        episode: The drive.
-        town: The town that it was driven in.
-        path: PNG file to write.
-    """
-    with matplotlib.style.context(["default", STYLE]):
-        figure = Figure(figsize=(9.0, 5.0), layout="constrained")
-        rows = figure.subplots(3, 1, sharex=True)
-        waits = metrics.waits_at_light(episode, town) & metrics.stands(episode)
-        curves = (3.6 * episode.vehicle[:, 3], episode.actions[:, 0], episode.actions[:, 1])
-        labels = (
-            "speed [km/h]",
-            "acceleration [-]\nbrake < 0 < throttle",
-            "steering [-]\nright < 0 < left",
-        )
-        for axes, curve, label, limits in zip(
-            rows, curves, labels, (None, (-1.05, 1.05), (-1.05, 1.05)), strict=True
-        ):
-            _shade(axes, episode, waits)
-            axes.axhline(0.0, color="0.7", linewidth=0.6)
-            axes.plot(episode.time, curve, color="#0550ae", linewidth=0.9)
-            axes.set(ylabel=label, ylim=limits)
-            axes.margins(x=0.01)
-            for infraction in episode.infractions:
-                axes.axvline(infraction.time, color=SYMBOLS[infraction.kind][2], linewidth=0.9)
-        rows[-1].set_xlabel("time [s]")
-        if waits.any():
-            rows[0].legend(loc="upper right", fontsize=7, framealpha=0.9)
-        rows[0].set_title(_title(episode, town))
-        figure.align_ylabels(rows)
-        _save(figure, path)
+            figure.legend(loc="outside lower center", ncols=4, frameon=False)
+        save(figure, path)
 
 
 def draw_dataset(episodes: Mapping[str, Episode], town: Town, path: Path) -> None:
@@ -122,9 +69,9 @@ def draw_dataset(episodes: Mapping[str, Episode], town: Town, path: Path) -> Non
             _draw_town(axes, town)
             _draw_path(axes, episode, line_width=1.4)
             _draw_ends(axes, episode)
-            _draw_infractions(axes, episode, size=25.0)
+            _draw_infractions(axes, episode, town, size=25.0, spacing=SMALL_SPACING)
             axes.set_title(f"{name}: {metrics.distance_on_lanes(episode):,.0f} m", fontsize=8)
-        _save(figure, path)
+        save(figure, path)
 
 
 def _extent(town: Town) -> tuple[float, float]:
@@ -182,39 +129,29 @@ def _draw_ends(axes: Axes, episode: Episode) -> None:
     axes.plot(x, y, "s", color="black", markersize=4, linestyle="", label="end", zorder=3)
 
 
-def _draw_infractions(axes: Axes, episode: Episode, *, size: float = 90.0) -> None:
+def _draw_infractions(
+    axes: Axes, episode: Episode, town: Town, *, size: float = 90.0, spacing: float = SYMBOL_SPACING
+) -> None:
     """Mark each infraction with the symbol of its kind; the legend counts them."""
+    gap = spacing * max(_extent(town))
+    drawn: list[tuple[float, float]] = []
     for kind, (label, marker, color) in SYMBOLS.items():
         places = [(it.x, it.y) for it in episode.infractions if it.kind == kind]
         if places:
-            x, y = np.array(places).T
+            free = [_moved_off(place, drawn, gap) for place in places]
+            drawn += free
+            x, y = np.array(free).T
             text = f"{label} ({len(places)})"
+            area = 1.8 * size if marker == "*" else size  # a star fills little of its box
             axes.scatter(
-                x, y, s=size, marker=marker, color=color, edgecolor="white", label=text, zorder=4
+                x, y, s=area, marker=marker, color=color, edgecolor="white", label=text, zorder=4
             )
 
 
-def _shade(axes: Axes, episode: Episode, waits: Bool[np.ndarray, " T"]) -> None:
-    """Shade the times in which the car waits at a light."""
-    edges = np.flatnonzero(np.diff(waits, prepend=False, append=False))
-    label = "waits at a red or yellow light"
-    for first, last in zip(edges[::2], edges[1::2], strict=True):
-        start, end = episode.time[first], episode.time[last - 1]
-        axes.axvspan(start, end, color="#ffebe9", linewidth=0, label=label)
-        label = "_nolegend_"
-
-
-def _title(episode: Episode, town: Town) -> str:
-    """Who drove where, and what came of it, in one line."""
-    summary = metrics.summarise(episode, town)
-    return (
-        f"{episode.policy} in {episode.town}, seed {episode.seed}: {summary.distance_m:,.0f} m, "
-        f"red lights {summary.red_lights}, collisions {summary.collisions}, off road {summary.off_road_s:.1f} s"
-    )
-
-
-def _save(figure: Figure, path: Path) -> None:
-    """Write a figure without the version of the software that drew it."""
-    picture = io.BytesIO()
-    figure.savefig(picture, format="png", metadata={"Software": None})
-    write_atomically(path, picture.getvalue())
+def _moved_off(
+    place: tuple[float, float], taken: list[tuple[float, float]], gap: float
+) -> tuple[float, float]:
+    """Move a symbol north until it hides none of those that are drawn."""
+    while any(math.dist(place, other) < 0.99 * gap for other in taken):
+        place = (place[0], place[1] + gap)
+    return place

@@ -9,7 +9,9 @@ from jaxtyping import Bool, Float
 
 from mjdrive import versions
 from mjdrive.datatypes import Episode, InfractionKind, Signal, Town, TrafficLight
+from mjdrive.evaluation import lane_keeping
 from mjdrive.evaluation.branches import branches_taken
+from mjdrive.evaluation.lane_keeping import LaneKeeping
 from mjdrive.town import signals
 
 RED_LIGHT_FACTOR = 0.7
@@ -39,9 +41,13 @@ class DriveSummary:
         red_lights: Red lights run [-].
         collisions: Collisions with things [-].
         kerb_strikes: Kerbs hit [-].
+        road_departures: Times that the car left the road [-].
+        wrong_ways: Times that the car drove against its lane [-].
+        standstills: Times that the car was stuck for so long that the rules hold it against the drive [-].
         off_road_s: Time off the driving lanes [s].
         stuck_s: Time at a standstill with no red or yellow light to wait for [s].
         score: Distance times 0.7 to the power of the red lights run [m].
+        lane_keeping: How far the car was from the centre of its lane while it moved.
         branches_taken: How often each way through a junction was driven, by the name of its lane [-].
         versions: Versions of the software that drove.
     """
@@ -55,9 +61,13 @@ class DriveSummary:
     red_lights: int
     collisions: int
     kerb_strikes: int
+    road_departures: int
+    wrong_ways: int
+    standstills: int
     off_road_s: float
     stuck_s: float
     score: float
+    lane_keeping: LaneKeeping
     branches_taken: Mapping[str, int]
     versions: Mapping[str, str]
 
@@ -86,9 +96,13 @@ def summarise(episode: Episode, town: Town) -> DriveSummary:
         red_lights=counts[InfractionKind.RED_LIGHT],
         collisions=counts[InfractionKind.COLLISION],
         kerb_strikes=counts[InfractionKind.KERB],
+        road_departures=counts[InfractionKind.OFF_ROAD],
+        wrong_ways=counts[InfractionKind.WRONG_WAY],
+        standstills=counts[InfractionKind.STUCK],
         off_road_s=_rounded(np.count_nonzero(~episode.on_lane) * interval),
         stuck_s=_rounded(np.count_nonzero(stuck) * interval),
         score=_rounded(distance * RED_LIGHT_FACTOR ** counts[InfractionKind.RED_LIGHT]),
+        lane_keeping=lane_keeping.summarise(episode, lane_keeping.track(episode, town)),
         branches_taken=branches_taken(episode, town),
         versions=versions.from_metadata(episode.metadata),
     )

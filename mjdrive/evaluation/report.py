@@ -7,7 +7,7 @@ from mjdrive import config
 from mjdrive.datatypes import Episode, Town
 from mjdrive.episodes import store
 from mjdrive.errors import DataError
-from mjdrive.evaluation import figures
+from mjdrive.evaluation import figures, timelines
 from mjdrive.evaluation.metrics import DriveSummary, summarise
 
 
@@ -29,7 +29,7 @@ def write_drive(episode: Episode, town: Town, folder: Path) -> DriveSummary:
     summary = summarise(episode, town)
     store.write(episode, folder / "episode.hdf5")
     figures.draw_trajectory(episode, town, folder / "trajectory.png")
-    figures.draw_actions(episode, town, folder / "actions.png")
+    timelines.draw_actions(episode, town, folder / "actions.png")
     config.write_json(summary, folder / "summary.json")
     return summary
 

@@ -1,3 +1,5 @@
+import dataclasses
+import itertools
 import subprocess
 import sys
 from collections.abc import Callable
@@ -6,9 +8,11 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from mjdrive.datatypes import Episode, Infraction, InfractionKind, Town
 from mjdrive.evaluation import figures
+from mjdrive.evaluation.figure_style import SYMBOLS
 
 Make = Callable[..., Episode]
 
@@ -37,27 +41,36 @@ def test_same_drive_gives_the_same_picture(crossing: Town, drive: Episode, tmp_p
 def test_picture_does_not_depend_on_the_users_style(
     crossing: Town, drive: Episode, tmp_path: Path
 ) -> None:
-    figures.draw_actions(drive, crossing, tmp_path / "a.png")
+    figures.draw_trajectory(drive, crossing, tmp_path / "a.png")
     with matplotlib.rc_context({"font.size": 30, "lines.linewidth": 5, "axes.grid": True}):
-        figures.draw_actions(drive, crossing, tmp_path / "b.png")
+        figures.draw_trajectory(drive, crossing, tmp_path / "b.png")
     assert read(tmp_path / "a.png") == read(tmp_path / "b.png")
 
 
-def test_infractions_change_the_picture(
-    crossing: Town, drive: Episode, make_drive: Make, tmp_path: Path
+@pytest.mark.parametrize("kind", InfractionKind, ids=lambda kind: kind.name.lower())
+def test_every_kind_of_infraction_has_a_symbol_of_its_own(
+    crossing: Town, make_drive: Make, tmp_path: Path, kind: InfractionKind
 ) -> None:
+    assert len({marker for _, marker, _ in SYMBOLS.values()}) == len(InfractionKind)
     clean = make_drive(np.linspace(0.0, 100.0, 201))
-    for draw in (figures.draw_trajectory, figures.draw_actions):
-        draw(drive, crossing, tmp_path / "a.png")
-        draw(clean, crossing, tmp_path / "b.png")
-        assert read(tmp_path / "a.png") != read(tmp_path / "b.png")
+    marked = dataclasses.replace(clean, infractions=(Infraction(kind, 3.0, 30.0, 0.0, "cause"),))
+    figures.draw_trajectory(marked, crossing, tmp_path / "a.png")
+    figures.draw_trajectory(clean, crossing, tmp_path / "b.png")
+    assert read(tmp_path / "a.png") != read(tmp_path / "b.png")
 
 
-def test_waiting_is_shaded(crossing: Town, make_drive: Make, tmp_path: Path) -> None:
-    for name, phase in (("red.png", 15.0), ("green.png", 0.0)):
-        waiting = make_drive(np.full(50, 36.0), light_phase=phase)
-        figures.draw_actions(waiting, crossing, tmp_path / name)
-    assert read(tmp_path / "red.png") != read(tmp_path / "green.png")
+def test_symbols_of_different_kinds_at_one_place_hide_none(
+    crossing: Town, make_drive: Make
+) -> None:
+    one_place = tuple(Infraction(kind, 1.0, 50.0, 0.0, "") for kind in InfractionKind)
+    axes = Figure().add_subplot()
+    drive = make_drive(np.linspace(0.0, 100.0, 201), infractions=one_place)
+    figures._draw_infractions(axes, drive, crossing)
+    places = np.concatenate([symbol.get_offsets() for symbol in axes.collections])
+    gaps = [np.hypot(*(a - b)) for a, b in itertools.combinations(places, 2)]
+    assert len(gaps) == 15
+    assert min(gaps) > 0.98 * figures.SYMBOL_SPACING * (100.0 + 2 * figures.MARGIN)
+    assert places[0].tolist() == [50.0, 0.0]
 
 
 @pytest.mark.parametrize("steps", [0, 1, 2])
@@ -66,9 +79,7 @@ def test_short_drives_can_be_drawn(
 ) -> None:
     drive = make_drive(np.arange(steps, dtype=float))
     figures.draw_trajectory(drive, crossing, tmp_path / "a.png")
-    figures.draw_actions(drive, crossing, tmp_path / "b.png")
     read(tmp_path / "a.png")
-    read(tmp_path / "b.png")
 
 
 def test_dataset_draws_every_episode(crossing: Town, drive: Episode, tmp_path: Path) -> None:

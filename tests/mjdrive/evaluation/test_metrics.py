@@ -106,3 +106,29 @@ def test_summary_is_json_with_units_in_its_keys(crossing: Town, make_drive: Make
     for field in dataclasses.fields(summary):
         if field.type is float and field.name != "score":
             assert field.name.endswith(("_s", "_m")), field.name
+    assert all(name.endswith(("_m", "_rad")) for name in values["lane_keeping"])
+    assert values["lane_keeping"]["offset_mean_m"] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("kind", "field"),
+    [
+        (InfractionKind.RED_LIGHT, "red_lights"),
+        (InfractionKind.COLLISION, "collisions"),
+        (InfractionKind.KERB, "kerb_strikes"),
+        (InfractionKind.OFF_ROAD, "road_departures"),
+        (InfractionKind.WRONG_WAY, "wrong_ways"),
+        (InfractionKind.STUCK, "standstills"),
+    ],
+)
+def test_each_kind_of_infraction_has_a_count_of_its_own(
+    crossing: Town, make_drive: Make, kind: InfractionKind, field: str
+) -> None:
+    names = (
+        "red_lights", "collisions", "kerb_strikes", "road_departures", "wrong_ways", "standstills"
+    )  # fmt: skip
+    infractions = (infraction(kind, 1.0), infraction(kind, 2.0))
+    summary = metrics.summarise(
+        make_drive(np.linspace(0.0, 50.0, 51), infractions=infractions), crossing
+    )
+    assert {name: getattr(summary, name) for name in names} == dict.fromkeys(names, 0) | {field: 2}
