@@ -2,7 +2,7 @@
 
 import heapq
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from types import MappingProxyType
 from typing import NamedTuple
@@ -69,6 +69,54 @@ def onward(town: Town) -> Mapping[str, float]:
     return MappingProxyType(
         {name: farthest[name] if name in ended else math.inf for name in town.lanes}
     )
+
+
+def round_trips(town: Town) -> list[list[str]]:
+    """Find the parts of a town in which one can drive from every lane to every lane.
+
+    Args:
+        town: The town.
+
+    Returns:
+        Names of the lanes of each part, in the order of the town. Lanes on no round trip are in none.
+
+    Reference:
+        Kosaraju's algorithm, after Sharir, A strong-connectivity algorithm, 1981.
+    """
+    before: dict[str, list[str]] = {name: [] for name in town.lanes}
+    for name, lane in town.lanes.items():
+        for following in lane.successors:
+            before[following].append(name)
+    onward_ways = {name: lane.successors for name, lane in town.lanes.items()}
+    seen: set[str] = set()
+    finished = [name for start in town.lanes for name in _post_order(start, onward_ways, seen)]
+    seen = set()
+    parts = [_post_order(start, before, seen) for start in reversed(finished)]
+    place = {name: index for index, name in enumerate(town.lanes)}
+    return [
+        sorted(part, key=place.__getitem__)
+        for part in parts
+        if len(part) > 1 or (part and part[0] in town.lanes[part[0]].successors)
+    ]
+
+
+def _post_order(start: str, ways: Mapping[str, Sequence[str]], seen: set[str]) -> list[str]:
+    """Visit what can be reached and was not seen before, depth first; each comes after all that it leads to."""
+    if start in seen:
+        return []
+    seen.add(start)
+    order = []
+    path = [(start, iter(ways[start]))]
+    while path:
+        name, ahead = path[-1]
+        following = next((way for way in ahead if way not in seen), None)
+        if following is None:
+            order.append(name)
+            path.pop()
+        else:
+            seen.add(following)
+            path.append((following, iter(ways[following])))
+    return order
 
 
 class LaneGraph:

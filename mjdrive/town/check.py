@@ -1,0 +1,234 @@
+"""Walk every lane of a town and say what would break a drive, or make it a poor one."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import IntEnum, StrEnum
+
+import numpy as np
+import shapely
+
+from mjdrive.datatypes import Lane, Town
+from mjdrive.geometry import curvatures, headings, resample, stations, wrap_angle
+from mjdrive.town.lane_graph import lane_length, round_trips
+from mjdrive.town.lights import light_signals
+from mjdrive.town.road_map import RoadMap
+
+LARGEST_GAP = 0.01
+"""Largest distance between the end of a lane and the start of its successor [m]."""
+
+LARGEST_KINK = 0.1
+"""Largest change of direction from a lane to its successor; half a chord of a tight bend takes 0.06 of it [rad]."""
+
+NARROWEST_LANE = 1.8
+"""Narrowest lane that the car fits into [m]."""
+
+TIGHTEST_TURN = 3.5
+"""Smallest radius that the car can follow at the centre of the lane without cutting the bend [m]."""
+
+_SHARED_END = 0.1
+"""Stop lines of lanes side by side meet; what they share at their ends is no crossing [m]."""
+
+
+class Severity(IntEnum):
+    """How bad a finding is."""
+
+    NOTE = 0
+    WARNING = 1
+    ERROR = 2
+
+
+class FindingKind(StrEnum):
+    """What can be wrong with a town."""
+
+    GAP = "gap"
+    DEAD_END = "dead end"
+    IDLE_LIGHT = "light that controls nothing"
+    CROSSED_STOP_LINES = "stop lines that cross"
+    KINK = "kink"
+    UNREACHED = "lane that nothing leads to"
+    NARROW = "narrow lane"
+    ISLAND = "island"
+    TIGHT_TURN = "tight turn"
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One thing that is wrong, or worth to know.
+
+    Attributes:
+        kind: What it is.
+        severity: How bad it is.
+        where: Name of the lane, light, signal or town.
+        text: One sentence with the figures.
+    """
+
+    kind: FindingKind
+    severity: Severity
+    where: str
+    text: str
+
+    @property
+    def breaks_a_drive(self) -> bool:
+        """Whether a car that comes there cannot go on, or is judged by what is not there."""
+        return self.severity is Severity.ERROR
+
+
+def check(town: Town, road_map: RoadMap | None = None) -> tuple[Finding, ...]:
+    """Look for what would break a drive.
+
+    Args:
+        town: The town.
+        road_map: The map that it was built from; without it, lights that control nothing are not found.
+
+    Returns:
+        What was found, the worst first, in the order of kinds and lanes.
+    """
+    found = [finding for lane in town.lanes.values() for finding in _lane_findings(town, lane)]
+    found += _unreached(town)
+    found += _crossed_stop_lines(town)
+    found += _islands(town)
+    if road_map is not None:
+        found += _idle_lights(town, road_map)
+    kinds = list(FindingKind)
+    return tuple(sorted(found, key=lambda f: (-f.severity, kinds.index(f.kind))))
+
+
+def _lane_findings(town: Town, lane: Lane) -> Iterator[Finding]:
+    yield from _joints(town, lane)
+    if not lane.successors:
+        if lane.left is None and lane.right is None:
+            yield Finding(
+                FindingKind.DEAD_END, Severity.ERROR, lane.id, "The lane leads to no other."
+            )
+        else:
+            yield Finding(
+                FindingKind.DEAD_END,
+                Severity.WARNING,
+                lane.id,
+                "The lane ends beside others; routes that would have to change lanes avoid it.",
+            )
+    widths = np.array([lane.width]) if lane.widths is None else lane.widths
+    if widths.min() < NARROWEST_LANE:
+        always = bool(widths.max() < NARROWEST_LANE)
+        yield Finding(
+            FindingKind.NARROW,
+            Severity.WARNING if always else Severity.NOTE,
+            lane.id,
+            f"The lane is {widths.max() if always else widths.min():.2f} m wide {'at most' if always else 'where it tapers'}; the car "
+            f"needs {NARROWEST_LANE} m.",
+        )
+    radius = _smallest_radius(lane)
+    if radius < TIGHTEST_TURN:
+        yield Finding(
+            FindingKind.TIGHT_TURN,
+            Severity.NOTE,
+            lane.id,
+            f"Its centre bends with a radius of {radius:.1f} m; the car follows {TIGHTEST_TURN} m and cuts this bend.",
+        )
+
+
+def _joints(town: Town, lane: Lane) -> Iterator[Finding]:
+    """Compare the end of a lane with the starts of those that follow."""
+    for name in lane.successors:
+        following = town.lanes[name].centerline
+        gap = float(np.hypot(*(following[0] - lane.centerline[-1])))
+        if gap > LARGEST_GAP:
+            yield Finding(
+                FindingKind.GAP,
+                Severity.ERROR,
+                lane.id,
+                f"The lane ends {gap:.3f} m from the start of its successor '{name}'; expected {LARGEST_GAP} m or less.",
+            )
+        turn = abs(wrap_angle(float(headings(following)[0] - headings(lane.centerline)[-1])))
+        if turn > LARGEST_KINK:
+            yield Finding(
+                FindingKind.KINK,
+                Severity.WARNING,
+                lane.id,
+                f"Its successor '{name}' sets off {np.rad2deg(turn):.0f} degrees to the side.",
+            )
+
+
+def _smallest_radius(lane: Lane) -> float:
+    """Smallest radius of the centre line over about a metre; infinite where it is straight [m]."""
+    length = stations(lane.centerline)[-1]
+    pieces = int(length / 0.5)
+    if pieces < 2:
+        return np.inf
+    # Evenly spaced, so that no short last step makes a bend of rounding.
+    curvature = np.abs(curvatures(resample(lane.centerline, length / pieces))).max()
+    return np.inf if curvature == 0.0 else float(1.0 / curvature)
+
+
+def _unreached(town: Town) -> list[Finding]:
+    reached = {name for lane in town.lanes.values() for name in lane.successors}
+    return [
+        Finding(
+            FindingKind.UNREACHED,
+            Severity.NOTE if lane.left or lane.right else Severity.WARNING,
+            name,
+            "No lane leads to it: cars can only start there.",
+        )
+        for name, lane in town.lanes.items()
+        if name not in reached
+    ]
+
+
+def _crossed_stop_lines(town: Town) -> list[Finding]:
+    lights = list(town.lights.values())
+    lines = [_without_ends(light.stop_line) for light in lights]
+    found = []
+    for first, second in _pairs(lines):
+        if lights[first].lane != lights[second].lane:
+            found.append(
+                Finding(
+                    FindingKind.CROSSED_STOP_LINES,
+                    Severity.ERROR,
+                    lights[first].id,
+                    f"Its stop line crosses that of light '{lights[second].id}': whoever passes one passes both.",
+                )
+            )
+    return found
+
+
+def _pairs(lines: list[shapely.LineString]) -> list[tuple[int, int]]:
+    first, second = shapely.STRtree(lines).query(lines, predicate="intersects")
+    return [(int(a), int(b)) for a, b in zip(first, second, strict=True) if a < b]
+
+
+def _without_ends(line: np.ndarray) -> shapely.LineString:
+    along = line[1] - line[0]
+    share = min(0.45, _SHARED_END / max(float(np.hypot(*along)), 1e-9))
+    return shapely.LineString([line[0] + share * along, line[1] - share * along])
+
+
+def _islands(town: Town) -> list[Finding]:
+    """Find parts of the town that one can drive around in, but not to and fro between."""
+    parts = sorted(
+        round_trips(town),
+        key=lambda part: -sum(lane_length(town.lanes[name]) for name in part),
+    )
+    return [
+        Finding(
+            FindingKind.ISLAND,
+            Severity.WARNING,
+            part[0],
+            f"{len(part)} lanes, {sum(lane_length(town.lanes[name]) for name in part):.0f} m, hang together with this "
+            "one, but no way leads there and back from the largest part of the town.",
+        )
+        for part in parts[1:]
+    ]
+
+
+def _idle_lights(town: Town, road_map: RoadMap) -> list[Finding]:
+    busy = {light.signal or light.id for light in town.lights.values()}
+    return [
+        Finding(
+            FindingKind.IDLE_LIGHT,
+            Severity.ERROR,
+            signal,
+            f"The light beside road '{road.id}' stops no lane into a junction. Check its <validity> and its place.",
+        )
+        for signal, (road, _) in light_signals(road_map).items()
+        if signal not in busy
+    ]
