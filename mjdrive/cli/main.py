@@ -7,6 +7,7 @@ import rich_click as click
 import mjdrive
 from mjdrive.cli.collect import collect
 from mjdrive.cli.drive import drive
+from mjdrive.cli.towns import towns
 from mjdrive.cli.train import train
 from mjdrive.errors import MjdriveError
 
@@ -55,5 +56,5 @@ def main() -> None:
     """Run `mjdrive`."""
 
 
-for command in (collect, train, drive):
+for command in (collect, train, drive, towns):
     main.add_command(command)

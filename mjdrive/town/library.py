@@ -13,6 +13,7 @@ from mjdrive.town.settings import TownSettings
 
 MAP_FILE = "map.xodr"
 SETTINGS_FILE = "town.json"
+PICTURE_FILE = "map.png"
 
 OWN_TOWNS = Path("towns")
 """Where imported and generated towns go, beside data/, runs/ and drives/ in the working folder."""
@@ -120,14 +121,18 @@ def load_folder(folder: Path) -> Town:
         TownFormatError: If a file is missing or the map cannot be driven.
         ConfigError: If town.json cannot be read.
     """
-    paths = [folder / MAP_FILE, folder / SETTINGS_FILE]
-    for path in paths:
-        if not path.is_file():
+    for file in (MAP_FILE, SETTINGS_FILE):
+        if not (folder / file).is_file():
             raise TownFormatError(
-                f"Town folder '{folder}' has no {path.name}; expected {MAP_FILE} and {SETTINGS_FILE}."
+                f"Town folder '{folder}' has no {file}; expected {MAP_FILE} and {SETTINGS_FILE}."
             )
-    settings = read_json(TownSettings, paths[1])
-    digest = hashlib.sha256(b"\0".join(path.read_bytes() for path in paths)).hexdigest()
+    settings = read_json(TownSettings, folder / SETTINGS_FILE)
+    road_map = opendrive.read(folder / MAP_FILE, flatten=settings.flatten)
     name = folder.resolve().name
-    road_map = opendrive.read(paths[0])
-    return build_town(road_map, name=name, timing=settings.lights, digest=digest)
+    return build_town(road_map, name=name, timing=settings.lights, digest=digest_of(folder))
+
+
+def digest_of(folder: Path) -> str:
+    """SHA-256 of the map and of town.json in a folder, hexadecimal."""
+    parts = [(folder / file).read_bytes() for file in (MAP_FILE, SETTINGS_FILE)]
+    return hashlib.sha256(b"\0".join(parts)).hexdigest()

@@ -15,7 +15,9 @@ from mjdrive.config import require, write_json
 from mjdrive.datatypes import Town
 from mjdrive.errors import NameTakenError, RouteError
 from mjdrive.town import library
-from mjdrive.town.demonstrations import demonstration_routes
+from mjdrive.town.demonstrations import Waypoints, demonstration_routes
+from mjdrive.town.network import build_town
+from mjdrive.town.road_map import RoadMap
 from mjdrive.town.settings import TownSettings
 
 NUM_ROUTES = 10
@@ -76,12 +78,15 @@ def require_free(name: str, parent: Path) -> None:
         )
 
 
-def fill(folder: Path, document: bytes, settings: TownSettings, *, seed: int) -> Town:
+def fill(
+    folder: Path, document: bytes, road_map: RoadMap, settings: TownSettings, *, seed: int
+) -> Town:
     """Write map.xodr and town.json; a town without routes gets some, so that demonstrations can be collected.
 
     Args:
         folder: Empty folder of the town.
         document: OpenDRIVE map.
+        road_map: What it says.
         settings: What town.json shall say.
         seed: Decides the routes.
 
@@ -91,16 +96,18 @@ def fill(folder: Path, document: bytes, settings: TownSettings, *, seed: int) ->
     Raises:
         TownFormatError: If the map cannot be driven.
     """
+    town = build_town(road_map, name=folder.name, timing=settings.lights, digest="")
+    if not settings.routes:
+        settings = replace(settings, routes=_routes(town, seed))
     (folder / library.MAP_FILE).write_bytes(document)
     write_json(settings, folder / library.SETTINGS_FILE)
-    town = library.load_folder(folder)
-    if settings.routes:
-        return town
+    return replace(town, digest=library.digest_of(folder))
+
+
+def _routes(town: Town, seed: int) -> dict[str, Waypoints]:
+    """Find routes; none where nobody can drive that far, which `mjdrive towns check` explains."""
+    rng = np.random.default_rng(seed)
     try:
-        routes = demonstration_routes(
-            town, num_routes=NUM_ROUTES, length=ROUTE_LENGTH, rng=np.random.default_rng(seed)
-        )
+        return demonstration_routes(town, num_routes=NUM_ROUTES, length=ROUTE_LENGTH, rng=rng)
     except RouteError:
-        return town  # `towns check` says why nobody can drive far in it
-    write_json(replace(settings, routes=routes), folder / library.SETTINGS_FILE)
-    return library.load_folder(folder)
+        return {}
