@@ -35,6 +35,7 @@ class Leg(NamedTuple):
     entered: tuple[str, ...]
 
 
+@lru_cache(maxsize=20_000)
 def lane_length(lane: Lane) -> float:
     """Length of a lane along its centre line [m]."""
     return float(stations(lane.centerline)[-1])

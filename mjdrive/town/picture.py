@@ -18,6 +18,9 @@ MOVE_COLOURS = {
 }
 _ROAD = "#c4c8ce"
 
+_LONGER_SIDE = 7.2  # of the map in a picture [inch]
+_LABELS = 0.9  # room for scales [inch]
+
 
 def draw(town: Town, axes: Axes) -> None:
     """Draw road, lanes, stop lines, poles and junction names.
@@ -61,6 +64,11 @@ def save(town: Town, path: Path) -> None:
         town: The town.
         path: File to write.
     """
-    figure = Figure(figsize=(8, 6.6), layout="constrained")
+    west, south, east, north = town.bounds
+    width, height = east - west, north - south
+    scale = _LONGER_SIDE / max(width, height)
+    figure = Figure(
+        figsize=(scale * width + _LABELS, scale * height + _LABELS), layout="constrained"
+    )
     draw(town, figure.subplots())
     figure.savefig(path, dpi=110, metadata={"Software": None})
