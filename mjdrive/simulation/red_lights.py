@@ -16,7 +16,8 @@ class RedLightWatch:
     """Watches the stop lines of a town for one drive.
 
     The tail is the stretch of the car's axis from 0.8 half lengths to a half length and 1 m behind its centre.
-    A red light is run when the tail crosses the middle of its stop line, comes from its lane and points along it.
+    A red light is run when the tail crosses the middle of its stop line, lies on its lane behind that and points along
+    the lane. So that no car is too fast for this, the stretch back to where the tail was a step ago counts as tail.
 
     Args:
         town: Where the drive takes place.
@@ -59,26 +60,29 @@ class RedLightWatch:
         (x, y), cos, sin = centre, math.cos(yaw), math.sin(yaw)
         near_tail = (x - self._near_tail * cos, y - self._near_tail * sin)
         far_tail = (x - self._far_tail * cos, y - self._far_tail * sin)
-        before, self._tail_before = self._tail_before, near_tail
-        tail_end = far_tail
-        if self._config.stop_line_sweep and before is not None:
-            moved = math.dist(near_tail, before)
-            if moved > self._far_tail - self._near_tail:
-                tail_end = before  # the car was faster than its tail is long: close the gap
+        ends = [far_tail]
+        if self._config.stop_line_sweep and self._tail_before is not None:
+            ends.append(self._tail_before)  # what lies between two steps, too
+        self._tail_before = near_tail
         distance = (self._middle_x - x) ** 2 + (self._middle_y - y) ** 2
         for number in np.flatnonzero(distance <= self._config.light_distance**2):
             light = self._lights[number]
             if lights[light.id] is not Signal.RED or _signal(light) == self._last_run:
                 continue
-            is_along = math.cos(yaw - light.yaw) > 0
-            if (
-                is_along
-                and _cross(*self._watched[number], near_tail, tail_end)
-                and any(place.lane == light.lane for place in self._index.under(*tail_end))
+            if math.cos(yaw - light.yaw) > 0 and any(
+                self._comes_over(light, self._watched[number], near_tail, end) for end in ends
             ):
                 self._last_run = _signal(light)
                 return light.id
         return None
+
+    def _comes_over(
+        self, light: TrafficLight, watched: tuple[Point, Point], start: Point, end: Point
+    ) -> bool:
+        """Whether a stretch crosses the watched part of a stop line and ends on the lane before it."""
+        return _cross(*watched, start, end) and any(
+            place.lane == light.lane for place in self._index.under(*end)
+        )
 
 
 def _signal(light: TrafficLight) -> str:

@@ -5,14 +5,16 @@ import math
 from mjdrive.config import RulesConfig
 from mjdrive.town.lane_index import LaneIndex, LanePlace
 
+Point = tuple[float, float]
+
 
 class WrongWayWatch:
     """Watches whether the car drives against its lane.
 
     A lane fits while the heading is within `wrong_way_angle` of its direction. The car is against the traffic while
-    its centre lies on one or more lanes of which none fits; it drives the wrong way once it has covered
-    `wrong_way_distance` so. That counts once, until the car is on a lane that fits; metres off the lanes do
-    not count, but do not end it either.
+    its centre lies on one or more lanes of which none fits. Once it has covered `wrong_way_distance` so, without a
+    lane that fits in between, it drives the wrong way; that is over, and can count again, once it has covered as much
+    on lanes that fit. Metres off the lanes belong to neither.
 
     Args:
         index: Lanes of the town.
@@ -21,17 +23,17 @@ class WrongWayWatch:
 
     def __init__(self, index: LaneIndex, config: RulesConfig) -> None:
         self._index = index
-        self._config = config
+        self._limit = config.wrong_way_distance
         self._least_cosine = math.cos(config.wrong_way_angle)
         self.reset()
 
     def reset(self) -> None:
         """Forget the drive so far."""
+        self._is_wrong = False
         self._distance = 0.0
-        self._has_counted = False
-        self._against_at: tuple[float, float] | None = None
+        self._before: Point | None = None
 
-    def check(self, centre: tuple[float, float], yaw: float) -> str | None:
+    def check(self, centre: Point, yaw: float) -> str | None:
         """Judge one control step.
 
         Args:
@@ -42,19 +44,20 @@ class WrongWayWatch:
             Name of the lane that the car drives against, if that is new.
         """
         places = self._index.under(*centre)
-        if any(math.cos(yaw - place.yaw) >= self._least_cosine for place in places):
-            self.reset()
+        fits = any(math.cos(yaw - place.yaw) >= self._least_cosine for place in places)
+        if not places or fits is not self._is_wrong:
+            self._before = None
+            if places:
+                self._distance = 0.0
             return None
-        if not places:
-            self._against_at = None
+        if self._before is not None:
+            self._distance += math.dist(self._before, centre)
+        self._before = centre
+        if self._distance < self._limit:
             return None
-        if self._against_at is not None:
-            self._distance += math.dist(self._against_at, centre)
-        self._against_at = centre
-        if self._has_counted or self._distance < self._config.wrong_way_distance:
-            return None
-        self._has_counted = True
-        return min(places, key=_distance_from_middle).lane
+        self.reset()
+        self._is_wrong = not fits
+        return min(places, key=_distance_from_middle).lane if self._is_wrong else None
 
 
 def _distance_from_middle(place: LanePlace) -> float:

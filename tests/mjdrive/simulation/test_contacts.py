@@ -9,6 +9,7 @@ SCENE = """
   <worldbody>
     <geom name="road" type="plane" size="0 0 1"/>
     <geom name="kerb_7" type="box" size="1 .1 .1" pos="0 3 .1"/>
+    <geom name="newspaper_stand" type="box" size="1 1 1" pos="0 -9 1"/>
     <geom name="building_2" type="box" size="1 1 3" pos="0 9 3"/>
     <body name="car">
       <freejoint/>
@@ -36,6 +37,8 @@ def hits(part: str, *, y: float, z: float) -> set[tuple[InfractionKind, str]]:
         ("hull_low", 3.0, 0.65, {(InfractionKind.COLLISION, "kerb")}),
         ("hull_low", 7.6, 2.0, {(InfractionKind.COLLISION, "building_2")}),
         ("tyre_fl", 7.6, 2.0, {(InfractionKind.COLLISION, "building_2")}),
+        ("hull_low", -7.6, 1.0, {(InfractionKind.COLLISION, "newspaper_stand")}),
+        ("tyre_fl", -7.6, 1.0, {(InfractionKind.COLLISION, "newspaper_stand")}),
         ("hull_low", 0.0, 5.0, set()),
     ],
 )

@@ -1,121 +1,92 @@
+"""All rules together; each has a table of its own beside this file."""
+
+import dataclasses
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
 from mjdrive.config import RulesConfig
-from mjdrive.datatypes import InfractionKind, Lane, Signal, Town, TrafficLight, VehicleState
+from mjdrive.datatypes import Infraction, InfractionKind, Signal, Town, VehicleState
+from mjdrive.errors import ConfigError
 from mjdrive.simulation.rules import Rules
 from mjdrive.vehicle.parameters import VehicleParameters
 
-LINE = 50.0
-"""Where the stop line of the approach lies [m]."""
+AHEAD = 1.35
+"""The centre of the car lies so far ahead of its rear axle [m]."""
 
 
-@pytest.fixture(scope="module")
-def town() -> Town:
-    approach = Lane(
-        "approach", np.array([[0.0, 0.0], [LINE, 0.0]]), 4.0, ("beyond",), None, "light"
-    )
-    beyond = Lane("beyond", np.array([[LINE, 0.0], [100.0, 0.0]]), 4.0, (), "j", None)
-    light = TrafficLight(
-        "light",
-        "approach",
-        "j",
-        np.array([[LINE, 2.0], [LINE, -2.0]]),
-        0.0,
-        np.array([LINE, -4.5]),
-        ((Signal.RED, 10.0),),
-        0.0,
-    )
-    lanes = {"approach": approach, "beyond": beyond}
-    return Town("line", lanes, {"light": light}, np.array([0.0, -2.0, 100.0, 2.0]), "")
+@pytest.fixture
+def check(crossroads: Town) -> Callable[..., tuple[Infraction, ...]]:
+    """One rule book, asked step by step; the centre of the car is at (x, y), all lights are red."""
+    rules = Rules(crossroads, VehicleParameters.default(), RulesConfig(stuck_time=10.0))
+    red = dict.fromkeys(crossroads.lights, Signal.RED)
+
+    def check(
+        time: float, x: float, y: float, *, speed: float = 5.0, hits: tuple = ()
+    ) -> tuple[Infraction, ...]:
+        vehicle = VehicleState(x - AHEAD, y, 0.0, speed, 0.0, 0.0)
+        return rules.check(time=time, vehicle=vehicle, lights=red, hits=hits)
+
+    check.rules = rules  # type: ignore[attr-defined]
+    return check
 
 
-def centre_at(x: float, *, y: float = 0.0, yaw: float = 0.0) -> VehicleState:
-    """State whose footprint is centred on (x, y)."""
-    car = VehicleParameters.default()
-    ahead = car.length / 2 - car.rear_overhang
-    return VehicleState(x - ahead * np.cos(yaw), y - ahead * np.sin(yaw), yaw, 5.0, 0.0, 0.0)
-
-
-def drive(rules: Rules, centres, *, signal=Signal.RED, y=0.0, yaw=0.0, hits=()):
-    found = []
-    for step, x in enumerate(centres):
-        found += rules.check(
-            time=0.1 * step, vehicle=centre_at(x, y=y, yaw=yaw), lights={"light": signal}, hits=hits
-        )
+def worst_drive(check: Callable[..., tuple[Infraction, ...]]) -> list[Infraction]:
+    """Against the traffic, over the kerb into a pole and off the road, over a red light, and stuck there."""
+    found: list[Infraction] = []
+    for step in range(12):
+        found += check(0.1 * step, -50.0 + 0.5 * step, 2.0)
+    touched = ((InfractionKind.COLLISION, "pole_3"), (InfractionKind.KERB, "kerb"))
+    found += check(2.0, -44.0, 6.0, hits=touched)
+    found += check(3.0, -8.0, -2.0)
+    for step in range(12):
+        found += check(4.0 + step, -5.0, -2.0, speed=0.0)
     return found
 
 
-def kinds(infractions) -> list[InfractionKind]:
-    return [infraction.kind for infraction in infractions]
-
-
-def rules(town: Town, **settings: float) -> Rules:
-    return Rules(town, VehicleParameters.default(), RulesConfig(**settings))
-
-
-def test_crossing_on_red_counts_once_and_names_the_light(town):
-    (infraction,) = drive(rules(town), np.arange(40.0, 60.0, 0.5))
-    assert infraction.kind is InfractionKind.RED_LIGHT
-    assert infraction.cause == "light"
-
-
-def test_guilt_begins_when_the_tail_reaches_the_line(town):
-    half = VehicleParameters.default().length / 2
-    innocent = (
-        LINE + 0.8 * half - 0.05
-    )  # nose far over the line, near end of the tail just before it
-    assert drive(rules(town), [innocent]) == []
-    assert kinds(drive(rules(town), [innocent + 0.1])) == [InfractionKind.RED_LIGHT]
-    assert drive(rules(town), [LINE + half + 1.05]) == []
-
-
-@pytest.mark.parametrize("signal", [Signal.GREEN, Signal.YELLOW])
-def test_green_and_yellow_may_be_crossed(town, signal):
-    assert drive(rules(town), np.arange(40.0, 60.0, 0.5), signal=signal) == []
-
-
-def test_only_the_middle_of_the_line_is_watched(town):
-    centres = np.arange(40.0, 60.0, 0.5)
-    assert kinds(drive(rules(town), centres, y=1.55)) == [InfractionKind.RED_LIGHT]
-    assert drive(rules(town), centres, y=1.65) == []
-    assert kinds(drive(rules(town, stop_line_share=0.6), centres, y=1.65)) == [
-        InfractionKind.RED_LIGHT
+def test_each_kind_is_reported_once_with_time_place_and_cause(check: Callable) -> None:
+    assert worst_drive(check) == [
+        Infraction(InfractionKind.WRONG_WAY, 1.0, -45.0 - AHEAD, 2.0, "west out"),
+        Infraction(InfractionKind.COLLISION, 2.0, -44.0 - AHEAD, 6.0, "pole_3"),
+        Infraction(InfractionKind.KERB, 2.0, -44.0 - AHEAD, 6.0, "kerb"),
+        Infraction(InfractionKind.OFF_ROAD, 2.0, -44.0 - AHEAD, 6.0, "west out"),
+        Infraction(InfractionKind.RED_LIGHT, 3.0, -8.0 - AHEAD, -2.0, "west in"),
+        Infraction(InfractionKind.STUCK, 14.0, -5.0 - AHEAD, -2.0, "standstill"),
     ]
 
 
-def test_oncoming_cars_cross_freely(town):
-    assert drive(rules(town), np.arange(60.0, 40.0, -0.5), yaw=np.pi) == []
+def test_reset_forgets_the_drive(check: Callable) -> None:
+    first = worst_drive(check)
+    check.rules.reset()
+    assert worst_drive(check) == first
 
 
-def test_leaving_the_road_counts_once_for_each_excursion(town):
-    watch = rules(town)
-    assert kinds(drive(watch, [20.0, 21.0, 22.0], y=2.3)) == [InfractionKind.OFF_ROAD]
-    assert drive(watch, [23.0], y=1.4) == []
-    assert kinds(drive(watch, [24.0], y=2.1)) == [InfractionKind.OFF_ROAD]
+def test_a_car_in_its_lane_is_on_a_lane(crossroads: Town) -> None:
+    rules = Rules(crossroads, VehicleParameters.default())
+    state = VehicleState(-30.0 - AHEAD, -2.0, 0.0, 0.0, 0.0, 0.0)
+    assert rules.on_lane(state)
+    assert not rules.on_lane(dataclasses.replace(state, y=-4.1))
+    # The centre counts, not the rear axle.
+    across = VehicleState(-30.0, -3.0, -np.pi / 2, 0.0, 0.0, 0.0)
+    assert not rules.on_lane(across)
 
 
-def test_touching_the_same_thing_counts_again_only_later_and_elsewhere(town):
-    watch, pole = rules(town), (InfractionKind.COLLISION, "pole_1")
-    at = lambda time, x: watch.check(  # noqa: E731
-        time=time, vehicle=centre_at(x), lights={"light": Signal.GREEN}, hits=[pole]
-    )
-    assert kinds(at(0.0, 10.0)) == [InfractionKind.COLLISION]
-    assert at(1.0, 20.0) == ()  # elsewhere, but within 5 s
-    assert at(9.0, 21.0) == ()  # later, but within 3 m of the last touch
-    assert kinds(at(20.0, 30.0)) == [InfractionKind.COLLISION]
-
-
-def test_reset_forgets_the_light_that_was_run(town):
-    watch = rules(town)
-    drive(watch, np.arange(40.0, 60.0, 0.5))
-    watch.reset()
-    assert kinds(drive(watch, np.arange(40.0, 60.0, 0.5))) == [InfractionKind.RED_LIGHT]
-
-
-def test_a_tyre_on_a_kerb_does_not_hide_the_body_on_it(town):
-    watch = rules(town)
-    tyre, body = (InfractionKind.KERB, "kerb"), (InfractionKind.COLLISION, "kerb")
-    found = drive(watch, [20.0], signal=Signal.GREEN, hits=[tyre])
-    found += drive(watch, [20.5], signal=Signal.GREEN, hits=[tyre, body])
-    assert kinds(found) == [InfractionKind.KERB, InfractionKind.COLLISION]
+@pytest.mark.parametrize(
+    ("setting", "value"),
+    [
+        ("stop_line_share", 0.0),
+        ("stop_line_share", 1.1),
+        ("light_distance", 0.0),
+        ("wrong_way_angle", 1.0),
+        ("wrong_way_angle", np.pi),
+        ("wrong_way_distance", -1.0),
+        ("back_on_road", -0.1),
+        ("same_hit_time", -1.0),
+        ("stuck_time", 0.0),
+        ("stuck_speed", 0.0),
+    ],
+)
+def test_settings_out_of_range_are_refused_by_name(setting: str, value: float) -> None:
+    with pytest.raises(ConfigError, match=f"{setting} is "):
+        RulesConfig(**{setting: float(value)})
