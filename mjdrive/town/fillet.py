@@ -12,6 +12,9 @@ from mjdrive.town.road_shapes import Arc, Line, Piece
 _KINK = 1e-4
 """Change of heading that counts as none [rad]."""
 
+_SAME_HEADING = 1e-9
+"""Lines whose headings differ by less are one line [rad]."""
+
 SLIGHT_BEND_RADIUS = 500.0
 """Radius of bends that nobody notices; far larger ones lose digits in readers with single precision [m]."""
 
@@ -98,9 +101,18 @@ def length_of(pieces: tuple[Piece, ...]) -> float:
 
 
 def extend(pieces: tuple[Piece, ...], run: tuple[Piece, ...]) -> tuple[Piece, ...]:
-    """Lay a run of pieces behind others: their s goes on."""
+    """Lay a run of pieces behind others: their s goes on, and a line that goes straight on is one line."""
     start = length_of(pieces)
-    return pieces + tuple(replace(piece, s=round(start + piece.s, 9)) for piece in run)
+    moved = tuple(replace(piece, s=round(start + piece.s, 9)) for piece in run)
+    if pieces and _go_straight_on(pieces[-1], moved[0]):
+        line = replace(pieces[-1], length=round(pieces[-1].length + moved[0].length, 9))
+        return (*pieces[:-1], line, *moved[1:])
+    return pieces + moved
+
+
+def _go_straight_on(before: Piece, behind: Piece) -> bool:
+    both_lines = before.shape == behind.shape == Line()
+    return both_lines and abs(before.heading - behind.heading) < _SAME_HEADING
 
 
 def _cross(first: Float[np.ndarray, "2"], second: Float[np.ndarray, "2"]) -> float:

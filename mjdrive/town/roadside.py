@@ -3,8 +3,8 @@
 import numpy as np
 
 from mjdrive.geometry import project
-from mjdrive.town.lane_geometry import reference_line
 from mjdrive.town.lights import TRAFFIC_LIGHT_TYPE
+from mjdrive.town.reference_line import reference_line
 from mjdrive.town.road_map import Road, SignalRecord
 from mjdrive.town.street_ends import contact
 from mjdrive.town.street_plan import LightPlan, SpeedSignPlan, StreetPlan

@@ -186,6 +186,9 @@ class StreetPlan:
                 count == 1 and name.isdecimal() and int(name) <= LARGEST_ID,
                 f"Id '{name}' is used {count} times; expected whole numbers from 0 to {LARGEST_ID}, each used once.",
             )
+        lights = [light.id for plan in self.junctions.values() for light in plan.lights]
+        for name, count in Counter([*lights, *(sign.id for sign in self.signs)]).items():
+            require(count == 1, f"Signal id '{name}' is used {count} times; expected once.")
         for sign in self.signs:
             require(
                 sign.road in self.streets,

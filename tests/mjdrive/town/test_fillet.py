@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mjdrive.errors import TownFormatError
-from mjdrive.town.fillet import Pose, extend, join, length_of
-from mjdrive.town.lane_geometry import curvature_of, reference_line
+from mjdrive.town.fillet import Pose, extend, join, length_of, turn_left
+from mjdrive.town.reference_line import curvature_of, reference_line
 
 
 def _pose(x: float, y: float, heading: float) -> Pose:
@@ -74,7 +74,25 @@ def test_a_pose_is_shifted_to_the_right_of_travel() -> None:
 
 
 def test_runs_of_pieces_follow_each_other() -> None:
-    run = join(_pose(0.0, 0.0, 0.0), _pose(20.0, 0.0, 0.0), radius=None, what="test")
-    both = extend(run, run)
+    line = join(_pose(0.0, 0.0, 0.0), _pose(20.0, 0.0, 0.0), radius=None, what="test")
+    arc = turn_left(_pose(20.0, 0.0, 0.0), radius=10.0, angle=1.0)
+    both = extend(line, arc)
     assert [piece.s for piece in both] == [0.0, 20.0]
-    assert length_of(both) == 40.0
+    assert length_of(both) == 30.0
+
+
+def test_a_line_that_goes_straight_on_is_one_line() -> None:
+    first = join(
+        _pose(0.0, 0.0, 0.5),
+        _pose(20.0 * np.cos(0.5), 20.0 * np.sin(0.5), 0.5),
+        radius=None,
+        what="test",
+    )
+    (line,) = extend(first, first)
+    assert (line.s, line.length) == (0.0, 40.0)
+
+
+def test_an_arc_to_the_left_ends_where_its_circle_does() -> None:
+    (arc,) = turn_left(_pose(3.0, 4.0, 0.0), radius=10.0, angle=np.pi / 2)
+    (end,), (heading,) = reference_line([arc], np.array([arc.length]))
+    np.testing.assert_allclose([*end, heading], [13.0, 14.0, np.pi / 2], atol=1e-9)

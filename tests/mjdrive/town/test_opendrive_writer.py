@@ -20,7 +20,7 @@ def test_the_header_bounds_every_lane(map_bytes: bytes) -> None:
         126.3,
         86.3,
     ]
-    assert (header["revMajor"], header["revMinor"]) == ("1", "4")
+    assert (header["revMajor"], header["revMinor"]) == ("1", "8")
 
 
 def test_what_the_street_builder_leaves_out_is_written_too(road_map: RoadMap) -> None:
