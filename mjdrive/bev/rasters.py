@@ -67,7 +67,9 @@ def draw_lanes(town: Town, config: BevConfig) -> tuple[Raster, ...]:
         outline = np.concatenate([left, right[::-1]])
         cv2.fillPoly(road, [outline], MARKED)
         if config.road_outline_px:
-            cv2.polylines(road, [outline], True, MARKED, config.road_outline_px)
+            # Of an even thickness OpenCV makes the next odd number of pixels, of an odd one, above 1, two more.
+            thickness = max(config.road_outline_px - 1, 1)
+            cv2.polylines(road, [outline], True, MARKED, thickness)
         if lane.junction is None:
             cv2.polylines(lane_lines, [left, right], False, MARKED, 1)
     return _road_and_lines(road, lane_lines, canvas.world_from_raster)
