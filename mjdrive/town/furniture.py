@@ -7,10 +7,11 @@ import numpy as np
 from jaxtyping import Float
 
 from mjdrive.datatypes import Marking, Sign, StaticObject
-from mjdrive.geometry import offset_polyline, stations, wrap_angle
-from mjdrive.town.lane_geometry import lane_centre, reference_line, section_bounds
+from mjdrive.geometry import offset_polyline, project, stations, wrap_angle
+from mjdrive.town.lane_geometry import lane_edge, lane_edges, section_bounds
 from mjdrive.town.lights import LIGHT_TYPES
 from mjdrive.town.links import SHORTEST_SECTION
+from mjdrive.town.reference_line import reference_line
 from mjdrive.town.road_map import LaneRecord, Road, RoadMap
 from mjdrive.town.road_shapes import RoadMark
 
@@ -80,10 +81,11 @@ def sidewalks(road_map: RoadMap) -> tuple[Float[np.ndarray, "_ 2"], ...]:
     for road, index in _sections(road_map):
         for record in road.sections[index].lanes:
             if record.type in SIDEWALK_LANE_TYPES and record.id != 0:
-                points, widths = lane_centre(road, index, record.id)
-                if widths.max() > 0.0:
-                    right, left = (offset_polyline(points, side * widths / 2) for side in (-1, 1))
-                    outlines.append(np.concatenate([right, left[::-1]]))
+                towards_middle = record.id - (1 if record.id > 0 else -1)
+                right, left = (
+                    lane_edge(road, index, number) for number in sorted((record.id, towards_middle))
+                )
+                outlines.append(np.concatenate([right, left[::-1]]))
     return tuple(outlines)
 
 
@@ -99,32 +101,22 @@ def _lane_markings(road: Road, index: int, record: LaneRecord) -> Iterator[Marki
     """Paint the outer edge of a lane, or the middle of the road for lane 0."""
     if not any(mark.type in PAINTED_LINES for mark in record.marks):
         return
-    edge = _outer_edge(road, index, record.id)
+    edge = lane_edge(road, index, record.id)
     start, end = section_bounds(road, index)
     along = stations(edge)
-    if along[-1] <= 0.0:
-        return
-    # Marks start at stations of the road; those of its edges are as far along in proportion.
-    ends = np.array([*(mark.start for mark in record.marks), end - start])
-    cuts = np.clip(ends / (end - start), 0.0, 1.0) * along[-1]
+    starts = np.array([*(mark.start for mark in record.marks), end - start])
+    s = start + np.clip(starts, 0.0, end - start)
+    reference, heading = reference_line(road.pieces, s)
+    offset = lane_edges(road, index, record.id, s)[1]
+    places = reference + offset[:, None] * np.stack([-np.sin(heading), np.cos(heading)], axis=1)
+    cuts = [project(edge, place).station for place in places]
     for mark, (first, last) in zip(record.marks, pairwise(cuts), strict=True):
         if mark.type in PAINTED_LINES and last - first >= SHORTEST_SECTION:
-            inside = along[(along > first) & (along < last)]
+            inside = along[(along > first + 1e-6) & (along < last - 1e-6)]
             wanted = np.concatenate([[first], inside, [last]])
             line = np.stack([np.interp(wanted, along, edge[:, axis]) for axis in (0, 1)], axis=1)
             # Inside out: to the right on the right side and along the middle, to the left on the left side.
             yield from _lines(line, mark, outward=1.0 if record.id > 0 else -1.0)
-
-
-def _outer_edge(road: Road, index: int, lane_id: int) -> Float[np.ndarray, "N 2"]:
-    """Draw the outer edge of a lane along s; that of lane 0 is the inner edge of its neighbour."""
-    side = np.sign(lane_id)
-    if lane_id == 0:
-        inner = next(lane.id for lane in road.sections[index].lanes if abs(lane.id) == 1)
-        points, widths = lane_centre(road, index, inner)
-        return offset_polyline(points, -np.sign(inner) * widths / 2)
-    points, widths = lane_centre(road, index, lane_id)
-    return offset_polyline(points, side * widths / 2)
 
 
 def _lines(line: Float[np.ndarray, "N 2"], mark: RoadMark, *, outward: float) -> Iterator[Marking]:

@@ -9,8 +9,8 @@ import numpy as np
 from mjdrive.datatypes import Lane, Signal, TrafficLight
 from mjdrive.errors import TownFormatError
 from mjdrive.geometry import headings
-from mjdrive.town.lane_geometry import reference_line
 from mjdrive.town.links import LaneKey, Links
+from mjdrive.town.reference_line import reference_line
 from mjdrive.town.road_map import Road, RoadMap, SignalRecord
 from mjdrive.town.settings import LightTiming
 from mjdrive.town.stopped_lanes import stopped_lanes
