@@ -49,25 +49,37 @@ def test_centre_lines_are_dense(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", TOWNS)
-def test_each_junction_offers_six_moves_and_each_approach_two(name: str) -> None:
+def test_each_approach_of_a_junction_with_lights_leads_every_other_way(name: str) -> None:
     town = library.load(name)
-    junctions = {lane.junction for lane in town.lanes.values()} - {None}
-    for junction in junctions:
+    streets = Counter(light.junction for light in town.lights.values())
+    for junction, num_streets in streets.items():
         moves = Counter(lane.move for lane in town.lanes.values() if lane.junction == junction)
-        assert moves == {Move.LEFT: 2, Move.STRAIGHT: 2, Move.RIGHT: 2}
+        each = {3: 2, 4: 4}[num_streets]
+        assert moves == {Move.LEFT: each, Move.STRAIGHT: each, Move.RIGHT: each}
     for light in town.lights.values():
         exits = [town.lanes[successor] for successor in town.lanes[light.lane].successors]
         assert {lane.junction for lane in exits} == {light.junction}
-        assert len({lane.move for lane in exits}) == 2
+        assert len({lane.move for lane in exits}) == len(exits) == streets[light.junction] - 1
 
 
 @pytest.mark.parametrize("name", TOWNS)
-def test_each_lane_into_a_junction_has_its_own_light(name: str) -> None:
+def test_junctions_without_lights_are_those_of_roundabouts(name: str) -> None:
+    """One way in and one way out, both to the right, and one past them to the left."""
     town = library.load(name)
+    lit = {light.junction for light in town.lights.values()}
+    for junction in {lane.junction for lane in town.lanes.values()} - lit - {None}:
+        moves = Counter(lane.move for lane in town.lanes.values() if lane.junction == junction)
+        assert moves == {Move.LEFT: 1, Move.RIGHT: 2}
+
+
+@pytest.mark.parametrize("name", TOWNS)
+def test_each_lane_into_a_junction_with_lights_has_its_own(name: str) -> None:
+    town = library.load(name)
+    lit = {light.junction for light in town.lights.values()}
     approaches = {
         lane.id
         for lane in town.lanes.values()
-        if any(town.lanes[successor].junction for successor in lane.successors)
+        if any(town.lanes[successor].junction in lit for successor in lane.successors)
     }
     assert {light.lane for light in town.lights.values()} == approaches
     for light in town.lights.values():
