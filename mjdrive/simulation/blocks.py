@@ -1,6 +1,4 @@
-"""Boxes of a layout as geoms that the car can hit."""
-
-from collections.abc import Sequence
+"""Boxes and posts that the car can hit."""
 
 import mujoco
 import numpy as np
@@ -9,17 +7,21 @@ from mjdrive.town.blocks import Block
 from mjdrive.vehicle.assembly import OBSTACLE_BITS
 
 DECIMALS = 3  # millimetres keep scene.xml short and free of rounding noise
-SHOWN_GROUP = 1  # geoms for the eye only; group 0 collides and is seen, group 3 collides unseen
+SHOWN_GROUP = 1  # geoms for the eye only; group 0 collides and is seen
+UNSEEN_GROUP = 3  # collides unseen
 
 
-def add_block(spec: mujoco.MjSpec, name: str, block: Block, *, rgba: Sequence[float]) -> None:
+def add_block(
+    spec: mujoco.MjSpec, name: str, block: Block, *, material: str, group: int = 0
+) -> None:
     """Stand a box that the car can hit.
 
     Args:
         spec: Scene to add to.
         name: Of the geom.
         block: Where it stands and how large it is.
-        rgba: Colour [-].
+        material: Of the scene.
+        group: 0 to show it, `UNSEEN_GROUP` if a mesh shows it.
     """
     contype, conaffinity = OBSTACLE_BITS
     half = 0.5 * np.array([block.length, block.depth, block.height])
@@ -31,7 +33,41 @@ def add_block(spec: mujoco.MjSpec, name: str, block: Block, *, rgba: Sequence[fl
         quat=upright(block.yaw),
         contype=contype,
         conaffinity=conaffinity,
-        rgba=rgba,
+        group=group,
+        material=material,
+    )
+
+
+def add_post(
+    spec: mujoco.MjSpec,
+    name: str,
+    *,
+    x: float,
+    y: float,
+    radius: float,
+    height: float,
+    material: str,
+) -> None:
+    """Stand a round post that the car can hit.
+
+    Args:
+        spec: Scene to add to.
+        name: Of the geom.
+        x: Middle, world frame [m].
+        y: Middle, world frame [m].
+        radius: Of the post [m].
+        height: Of the post [m].
+        material: Of the scene.
+    """
+    contype, conaffinity = OBSTACLE_BITS
+    spec.worldbody.add_geom(
+        name=name,
+        type=mujoco.mjtGeom.mjGEOM_CYLINDER,
+        size=[round(radius, DECIMALS), round(0.5 * height, DECIMALS), 0],
+        pos=[round(x, DECIMALS), round(y, DECIMALS), round(0.5 * height, DECIMALS)],
+        contype=contype,
+        conaffinity=conaffinity,
+        material=material,
     )
 
 

@@ -9,8 +9,12 @@ from jaxtyping import UInt8
 from mjdrive.datatypes import Town
 from mjdrive.errors import RenderError, UnknownNameError
 from mjdrive.simulation.opengl import open_context
+from mjdrive.simulation.stage import SUN_DISTANCE
 
 MAX_GEOMS = 5000  # in one picture
+FIELD_OF_VIEW_DEG = 45.0  # vertical, of free cameras in MuJoCo
+OVERVIEW_ELEVATION_DEG = 50.0
+HOUSES_AROUND = 20.0  # beyond the lanes [m]
 
 
 class Cameras:
@@ -104,7 +108,7 @@ class Cameras:
         self._context.shadowClip = max(self._near_shadows, 1.5 * camera.distance)
         for light in self._scene.lights[: self._scene.nlight]:
             if light.type == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL and not light.headlight:
-                light.pos = camera.lookat - camera.distance * light.dir
+                light.pos = camera.lookat - SUN_DISTANCE * light.dir
 
     def _fixed_camera(self, name: str) -> mujoco.MjvCamera:
         known = [self._model.camera(number).name for number in range(self._model.ncam)]
@@ -116,18 +120,24 @@ class Cameras:
         return camera
 
 
-def overview(town: Town) -> mujoco.MjvCamera:
+def overview(town: Town, *, aspect: float = 4.0 / 3.0) -> mujoco.MjvCamera:
     """Place a camera that sees the whole town from the south, as one looks at a model on a table.
 
     Args:
         town: Road network.
+        aspect: Width of the picture over its height [-].
 
     Returns:
         Free camera for `Cameras.render`.
     """
-    left, bottom, right, top = town.bounds
+    left, bottom, right, top = town.bounds + HOUSES_AROUND * np.array([-1.0, -1.0, 1.0, 1.0])
+    elevation = np.radians(OVERVIEW_ELEVATION_DEG)
+    reach = np.tan(0.5 * np.radians(FIELD_OF_VIEW_DEG))
+    half_width, half_depth = 0.5 * (right - left), 0.5 * (top - bottom)
+    # The near edge of the town is the one that has to fit.
+    behind = max(half_width / (aspect * reach), half_depth * np.sin(elevation) / reach)
     camera = mujoco.MjvCamera()
     camera.lookat = [0.5 * (left + right), 0.5 * (bottom + top), 0.0]
-    camera.distance = 1.35 * max(right - left, top - bottom)
-    camera.azimuth, camera.elevation = 90.0, -55.0
+    camera.distance = float(half_depth * np.cos(elevation) + behind)
+    camera.azimuth, camera.elevation = 90.0, -OVERVIEW_ELEVATION_DEG
     return camera

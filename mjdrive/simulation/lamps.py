@@ -1,19 +1,23 @@
 """Light poles, and lamps that show what the lights say."""
 
 from collections.abc import Iterable, Mapping
+from itertools import pairwise
 
 import mujoco
 import numpy as np
 
 from mjdrive.datatypes import Signal, Town, TrafficLight
-from mjdrive.simulation.blocks import DECIMALS, SHOWN_GROUP, upright
-from mjdrive.vehicle.assembly import OBSTACLE_BITS
+from mjdrive.simulation.blocks import DECIMALS, SHOWN_GROUP, add_post, upright
+from mjdrive.simulation.meshes import Shell, show_mesh
 
-POLE_RADIUS = 0.08  # [m]
-HEAD_SIZE = (0.14, 0.24, 0.66)  # half depth, half width, half height [m]
-LAMP_RADIUS = 0.17  # [m]
-LAMP_PITCH = 0.42  # vertical distance between lamps [m]
-POLE_RGBA = (0.22, 0.23, 0.25, 1.0)
+POLE_RADIUS = 0.07  # [m]
+HOUSING = (0.13, 0.19, 0.64)  # half depth, half width, half height of the box around the lamps [m]
+BACK_PLATE = (0.02, 0.33, 0.80)  # half sizes of the plate that sets them off from the sky [m]
+LAMP_RADIUS = 0.15  # [m]
+LAMP_PITCH = 0.41  # vertical distance between lamps [m]
+VISOR = (0.175, 0.24)  # radius and length [m]
+VISOR_ARC = np.linspace(-0.35, np.pi + 0.35, 8)  # from side to side over the lamp [rad]
+HEAD = "traffic_light_head"
 LIT = np.array([[0.10, 0.95, 0.35, 1.0], [1.0, 0.78, 0.08, 1.0], [1.0, 0.12, 0.08, 1.0]])
 DARK = np.array([[0.04, 0.13, 0.07, 1.0], [0.15, 0.12, 0.04, 1.0], [0.15, 0.05, 0.04, 1.0]])
 
@@ -22,16 +26,35 @@ def add_lights(spec: mujoco.MjSpec, lights: Iterable[TrafficLight], *, height: f
     """Stand the poles of lights, each with a head of three lamps that faces its approach.
 
     Args:
-        spec: Scene to add to; it has a material "lamp".
+        spec: Scene with the materials of `palette`.
         lights: Where they stand and whom they face.
         height: Of the poles [m].
     """
     lights = list(lights)
+    if lights:
+        head_shell().mesh(spec, HEAD)
+    centre = height - HOUSING[2]
     for light in lights:
-        _add_pole(spec, light, height)
-        _add_head(spec, light, height - HEAD_SIZE[2])
+        x, y = light.pole.tolist()
+        add_post(
+            spec,
+            f"pole_{light.id}",
+            x=x,
+            y=y,
+            radius=POLE_RADIUS,
+            height=height,
+            material="metal",
+        )
+        show_mesh(
+            spec,
+            f"head_{light.id}",
+            mesh=HEAD,
+            material="metal",
+            position=np.array([x, y, centre]),
+            quaternion=upright(light.yaw),
+        )
     for light in lights:  # apart from the poles, so that the numbers of all lamps are consecutive
-        _add_lamps(spec, light, height - HEAD_SIZE[2])
+        _add_lamps(spec, light, centre)
 
 
 def set_lamps(model: mujoco.MjModel, town: Town, signals: Mapping[str, Signal]) -> None:
@@ -52,51 +75,42 @@ def set_lamps(model: mujoco.MjModel, town: Town, signals: Mapping[str, Signal]) 
     model.geom_rgba[lamps] = np.where(is_lit[..., None], LIT, DARK).reshape(-1, 4)
 
 
+def head_shell() -> Shell:
+    """Build housing, back plate and visors around the origin; x points away from the approaching driver."""
+    shell = Shell()
+    back = -POLE_RADIUS
+    for half_depth, half_width, half_height in (HOUSING, BACK_PLATE):
+        near, far = back - 2 * half_depth, back
+        outline = [[far, -half_width], [far, half_width], [near, half_width], [near, -half_width]]
+        shell.box(np.array(outline), bottom=-half_height, top=half_height, floor=True)
+    face = back - 2 * HOUSING[0]
+    radius, length = VISOR
+    arc = radius * np.stack([np.cos(VISOR_ARC), np.sin(VISOR_ARC)], axis=1)
+    for signal in Signal:
+        middle = np.array([0.0, (signal - Signal.YELLOW) * LAMP_PITCH])
+        for start, end in pairwise(arc + middle):
+            plate = np.array(
+                [[face, *start], [face, *end], [face - length, *end], [face - length, *start]]
+            )
+            shell.polygon(plate)
+            shell.polygon(plate[::-1])
+    return shell
+
+
 def _lamp(light_id: str, signal: Signal) -> str:
     return f"lamp_{light_id}_{signal.name.lower()}"
 
 
-def _ahead_of_pole(light: TrafficLight, distance: float) -> list[float]:
-    """Point that lies off the pole towards the approaching driver."""
-    facing = -np.array([np.cos(light.yaw), np.sin(light.yaw)])
-    return (light.pole + distance * facing).round(DECIMALS).tolist()
-
-
-def _add_pole(spec: mujoco.MjSpec, light: TrafficLight, height: float) -> None:
-    contype, conaffinity = OBSTACLE_BITS
-    spec.worldbody.add_geom(
-        name=f"pole_{light.id}",
-        type=mujoco.mjtGeom.mjGEOM_CYLINDER,
-        size=[POLE_RADIUS, 0.5 * height, 0],
-        pos=[*_ahead_of_pole(light, 0.0), 0.5 * height],
-        contype=contype,
-        conaffinity=conaffinity,
-        rgba=POLE_RGBA,
-    )
-
-
-def _add_head(spec: mujoco.MjSpec, light: TrafficLight, centre: float) -> None:
-    spec.worldbody.add_geom(
-        name=f"head_{light.id}",
-        type=mujoco.mjtGeom.mjGEOM_BOX,
-        size=HEAD_SIZE,
-        pos=[*_ahead_of_pole(light, POLE_RADIUS + HEAD_SIZE[0]), centre],
-        quat=upright(light.yaw),
-        contype=0,
-        conaffinity=0,
-        group=SHOWN_GROUP,
-        rgba=POLE_RGBA,
-    )
-
-
 def _add_lamps(spec: mujoco.MjSpec, light: TrafficLight, centre: float) -> None:
+    towards_driver = -np.array([np.cos(light.yaw), np.sin(light.yaw)])
+    face = light.pole + (POLE_RADIUS + 2 * HOUSING[0] - 0.4 * LAMP_RADIUS) * towards_driver
     for signal in Signal:
         height = centre + (signal - Signal.YELLOW) * LAMP_PITCH
         spec.worldbody.add_geom(
             name=_lamp(light.id, signal),
             type=mujoco.mjtGeom.mjGEOM_SPHERE,
             size=[LAMP_RADIUS, 0, 0],
-            pos=[*_ahead_of_pole(light, POLE_RADIUS + 2 * HEAD_SIZE[0]), round(height, DECIMALS)],
+            pos=[*face.round(DECIMALS), round(height, DECIMALS)],
             contype=0,
             conaffinity=0,
             group=SHOWN_GROUP,

@@ -1,44 +1,111 @@
-"""Paint on the road: broken centre lines and stop lines."""
+"""Paint on the road: lane lines, stop lines, crosswalks and parking spaces."""
 
+from collections.abc import Iterator
+from itertools import pairwise
+
+import mujoco
 import numpy as np
 import shapely
 from jaxtyping import Float
 
-from mjdrive.datatypes import Town
-from mjdrive.geometry import offset_polyline, resample
+from mjdrive.datatypes import Marking, StaticObject, Town
+from mjdrive.geometry import offset_polyline, stations
+from mjdrive.simulation.meshes import Shell
+from mjdrive.town import surface
 
-DASH_LENGTH = 3.0  # [m]; as long as the gap
-DASH_WIDTH = 0.15  # [m]; 0.125 in the map, a little more to be seen
+PAINT_HEIGHT = (
+    0.01  # [m]; enough to be drawn above the asphalt, and invisible from where cameras are
+)
+NARROWEST_LINE = 0.12  # thinner paint is drawn this wide, to be seen [m]
+SMOOTHING = 0.005  # lines keep corners larger than this [m]
+CENTRE_LINE = Marking(points=np.zeros((2, 2)), width=0.15, color="white", dash=3.0, gap=3.0)
 STOP_LINE_THICKNESS = 0.4  # along the lane [m]
 STOP_LINE_INSET = 0.2  # at both ends [m]
-SAME_LINE = 0.5  # left edges of opposite lanes closer than this are one centre line [m]
+SAME_LINE = 0.5  # edges of lanes closer than this are one line [m]
+ZEBRA_STRIPE = 0.5  # width of a stripe, and of the gap beside it [m]
+OUTLINE_WIDTH = 0.12  # of parking spaces [m]
 
 
-def centre_dashes(town: Town) -> list[Float[np.ndarray, "4 2"]]:
-    """Dashes between opposite lanes outside junctions.
+def add_markings(spec: mujoco.MjSpec, town: Town) -> None:
+    """Paint the road of a town; maps without road marks get broken lines between their lanes.
+
+    Args:
+        spec: Scene with the materials of `palette`.
+        town: Road network.
+    """
+    shells: dict[str, Shell] = {}
+    for marking in town.markings or centre_lines(town):
+        shell = shells.setdefault(marking.color, Shell())
+        for piece in painted(marking):
+            _add_line(shell, piece, max(marking.width, NARROWEST_LINE))
+    for color, shell in shells.items():
+        shell.show(spec, f"marking_{color}", material=f"{color}_paint")
+    bars, areas = Shell(), Shell()
+    for bar in stop_bars(town):
+        bars.polygon(np.column_stack([bar, np.full(4, PAINT_HEIGHT)]))
+    bars.show(spec, "stop_bars", material="white_paint")
+    for thing in town.objects:
+        if thing.type == "crosswalk":
+            areas.area(zebra(thing, town), height=1.2 * PAINT_HEIGHT)
+        elif thing.type == "parkingSpace":
+            outline = shapely.Polygon(thing.outline)
+            areas.area(outline - shapely.buffer(outline, -OUTLINE_WIDTH), height=PAINT_HEIGHT)
+    areas.show(spec, "crosswalks", material="white_paint")
+
+
+def centre_lines(town: Town) -> list[Marking]:
+    """Broken lines where two lanes lie side by side outside junctions, for maps that paint nothing.
 
     Args:
         town: Road network.
 
     Returns:
-        Corners of each dash, counter-clockwise, world frame [m].
+        One line between each two lanes.
     """
-    dashes = []
+    kerb = shapely.boundary(surface.road_surface(town))
+    lines: list[Marking] = []
     drawn: list[shapely.LineString] = []
     for lane in town.lanes.values():
-        if lane.junction is not None:
-            continue
-        left_edge = offset_polyline(lane.centerline, 0.5 * lane.width)
-        middle = shapely.Point(left_edge[len(left_edge) // 2])
-        if any(line.distance(middle) < SAME_LINE for line in drawn):
-            continue
-        drawn.append(shapely.LineString(left_edge))
-        points = resample(left_edge, DASH_LENGTH)
-        dashes += [
-            _strip(start, end, DASH_WIDTH)
-            for start, end in zip(points[0:-1:2], points[1::2], strict=False)
-        ]
-    return dashes
+        for side in (0.5, -0.5) if lane.junction is None else ():
+            edge = offset_polyline(lane.centerline, side * lane.width)
+            line = shapely.LineString(edge)
+            middle = line.interpolate(0.5, normalized=True)
+            if shapely.distance(kerb, middle) < 1.0:
+                continue
+            if any(other.distance(middle) < SAME_LINE for other in drawn):
+                continue
+            drawn.append(line)
+            lines.append(
+                Marking(
+                    edge, CENTRE_LINE.width, CENTRE_LINE.color, CENTRE_LINE.dash, CENTRE_LINE.gap
+                )
+            )
+    return lines
+
+
+def painted(marking: Marking) -> Iterator[Float[np.ndarray, "_ 2"]]:
+    """Cut a marking into its dashes; an unbroken line is one piece.
+
+    Args:
+        marking: The line.
+
+    Yields:
+        Middle of each piece of paint, world frame [m].
+    """
+    station = stations(marking.points)
+    end = float(station[-1])
+    step = marking.dash + marking.gap if marking.dash > 0.0 else end
+    length = marking.dash if marking.dash > 0.0 else end
+    start = 0.0
+    while step > 0.0 and start < end - SMOOTHING:
+        stop = min(start + length, end)
+        inner = station[(station > start) & (station < stop)]
+        along = np.concatenate([[start], inner, [stop]])
+        points = np.stack(
+            [np.interp(along, station, marking.points[:, axis]) for axis in (0, 1)], axis=1
+        )
+        yield shapely.get_coordinates(shapely.simplify(shapely.LineString(points), SMOOTHING))
+        start += step
 
 
 def stop_bars(town: Town) -> list[Float[np.ndarray, "4 2"]]:
@@ -57,13 +124,59 @@ def stop_bars(town: Town) -> list[Float[np.ndarray, "4 2"]]:
         back = -np.array([np.cos(light.yaw), np.sin(light.yaw)])
         middle = 0.5 * STOP_LINE_THICKNESS * back
         inset = STOP_LINE_INSET * across
-        bars.append(_strip(left + inset + middle, right - inset + middle, STOP_LINE_THICKNESS))
+        ends = left + inset + middle, right - inset + middle
+        side = 0.5 * STOP_LINE_THICKNESS * np.array([-across[1], across[0]])
+        bars.append(np.array([ends[0] - side, ends[1] - side, ends[1] + side, ends[0] + side]))
     return bars
 
 
-def _strip(
-    start: Float[np.ndarray, "2"], end: Float[np.ndarray, "2"], width: float
-) -> Float[np.ndarray, "4 2"]:
-    forward = (end - start) / np.hypot(*(end - start))
-    side = 0.5 * width * np.array([-forward[1], forward[0]])
-    return np.array([start - side, end - side, end + side, start + side])
+def zebra(crosswalk: StaticObject, town: Town) -> shapely.Geometry:
+    """Stripe a crosswalk along the traffic that it crosses.
+
+    Args:
+        crosswalk: Object with the outline to fill.
+        town: Road network; its nearest lane says which way the stripes run.
+
+    Returns:
+        The stripes, world frame [m].
+    """
+    area = shapely.Polygon(crosswalk.outline)
+    middle = shapely.get_coordinates(area.centroid)[0]
+    lines = [shapely.LineString(lane.centerline) for lane in town.lanes.values()]
+    line = lines[int(np.argmin(shapely.distance(lines, area.centroid)))]
+    station = line.project(area.centroid)
+    before, after = (
+        shapely.get_coordinates(line.interpolate(max(station + step, 0.0)))[0]
+        for step in (-0.5, 0.5)
+    )
+    along = (after - before) / np.hypot(*(after - before))
+    across = np.array([-along[1], along[0]])
+    reach = float(np.hypot(*(crosswalk.outline - middle).T).max())
+    stripes = [
+        _ribbon(
+            np.array([middle - reach * along, middle + reach * along]) + offset * across,
+            ZEBRA_STRIPE,
+        )
+        for offset in np.arange(-reach, reach, 2.0 * ZEBRA_STRIPE)
+    ]
+    return shapely.intersection(shapely.union_all(shapely.polygons(stripes)), area)
+
+
+def _add_line(shell: Shell, points: Float[np.ndarray, "_ 2"], width: float) -> None:
+    """A ribbon whose pieces share their corners, so that bends have no gaps."""
+    left, right = offset_polyline(points, 0.5 * width), offset_polyline(points, -0.5 * width)
+    vertices = np.column_stack(
+        [np.concatenate([left, right]), np.full(2 * len(points), PAINT_HEIGHT)]
+    )
+    num_points = len(points)
+    faces = [
+        [[a, num_points + a, b], [num_points + a, num_points + b, b]]
+        for a, b in pairwise(range(num_points))
+    ]
+    shell.add(vertices, np.array(faces).reshape(-1, 3))
+
+
+def _ribbon(points: Float[np.ndarray, "2 2"], width: float) -> Float[np.ndarray, "4 2"]:
+    return np.concatenate(
+        [offset_polyline(points, -0.5 * width), offset_polyline(points, 0.5 * width)[::-1]]
+    )

@@ -11,15 +11,18 @@ from mjdrive.town import surface
 from mjdrive.town.blocks import Block
 from mjdrive.town.houses import line_with_houses
 from mjdrive.town.settings import SceneryConfig
-from mjdrive.town.street_trees import Tree, plant_trees
+from mjdrive.town.street_trees import Tree, plant_gardens, plant_trees
 
 KERBSTONE_WIDTH = 0.15  # [m]
 CHORD_ERROR = 0.03  # largest distance between a kerb and the true edge of the road [m]
-CORNER = 8.0  # around junctions the sidewalk reaches the kerb, and no tree hides the traffic [m]
+CORNER = 3.0  # around junctions the sidewalk reaches the kerb [m]
+JUNCTION_VIEW = 8.0  # around junctions no tree hides the traffic [m]
 CROSSING_RAMP = 0.5  # paving to both sides of a crosswalk [m]
 POLE_CLEARANCE = 5.0  # between a tree and a light or a sign [m]
 DRIVER_VIEW = 25.0  # a light or a sign is seen from this far [m]
 SMALLEST_PATCH = 1.0  # smaller scraps of grass are paved [m^2]
+GARDEN_CLEARANCE = 2.5  # between a tree and a house or a sidewalk [m]
+SLIVER = 0.4  # so are narrower ones [m]
 ON_THE_GROUND = 0.05  # objects up to this height are paint [m]
 SMALLEST_ISLAND = 12.0  # smaller holes between lanes are paved [m^2]
 SMALLEST_BLOCK = (
@@ -70,6 +73,10 @@ def lay_out(town: Town, scenery: SceneryConfig) -> Scenery:
         middle=shapely.buffer(road, 0.5 * (KERBSTONE_WIDTH + scenery.verge_width)),
         keep_clear=shapely.union_all([_views(town), shapely.buffer(objects, 2.0)]),
     )
+    footprints = shapely.union_all([house.footprint() for house in buildings])
+    built = shapely.buffer(shapely.union_all([footprints, objects]), GARDEN_CLEARANCE)
+    gardens = shapely.union_all(_blocks(streets)) - built
+    trees += plant_gardens(shapely.buffer(gardens, -GARDEN_CLEARANCE), scenery, rng)
     return Scenery(road=road, sidewalk=sidewalk, verge=verge, buildings=buildings, trees=trees)
 
 
@@ -80,11 +87,11 @@ def standing(town: Town) -> tuple[StaticObject, ...]:
 
 def _road(town: Town) -> shapely.Geometry:
     """Surface between the kerbs; the islands of roundabouts are no road, even small ones."""
-    road = shapely.difference(surface.road_surface(town), _islands(town))
+    road = shapely.difference(surface.road_surface(town), _roundabouts(town))
     return shapely.simplify(road, CHORD_ERROR, preserve_topology=True)
 
 
-def _islands(town: Town) -> shapely.Geometry:
+def _roundabouts(town: Town) -> shapely.Geometry:
     """Holes that traffic runs around on roads, not only on the turning lanes of one junction."""
     lanes = surface.lane_polygons(town)
     on_roads = shapely.union_all(
@@ -100,10 +107,14 @@ def _islands(town: Town) -> shapely.Geometry:
     return shapely.buffer(shapely.union_all(islands), -0.3)
 
 
-def _enclosed(road: shapely.Geometry) -> shapely.Geometry:
-    """Islands that the road runs around."""
-    holes = [shapely.Polygon(ring) for part in shapely.get_parts(road) for ring in part.interiors]
-    return shapely.union_all([hole for hole in holes if hole.area < SMALLEST_BLOCK])
+def _islands_of(road: shapely.Geometry) -> shapely.Geometry:
+    """Ground that the road runs around, too small to build on."""
+    return shapely.union_all([hole for hole in _blocks(road) if hole.area < SMALLEST_BLOCK])
+
+
+def _blocks(area: shapely.Geometry) -> list[shapely.Polygon]:
+    """Ground that an area encloses."""
+    return [shapely.Polygon(ring) for part in shapely.get_parts(area) for ring in part.interiors]
 
 
 def _sides(
@@ -111,21 +122,24 @@ def _sides(
 ) -> tuple[shapely.Geometry, shapely.Geometry]:
     """Split the ground beside the kerb into paving and grass."""
     kerb = shapely.buffer(road, KERBSTONE_WIDTH, join_style="mitre")
-    raised = shapely.simplify(shapely.buffer(road, scenery.sidewalk_width), 0.1)
+    ring = shapely.buffer(road, scenery.sidewalk_width)
+    verge = shapely.buffer(road, KERBSTONE_WIDTH + scenery.verge_width)
+    # Outlines of tight bends cross themselves.
+    paved = shapely.union_all(
+        shapely.make_valid([shapely.Polygon(outline) for outline in town.sidewalks])
+    )
+    verge = shapely.difference(verge, _corners(town, CORNER))
     if town.sidewalks:
-        paved = shapely.union_all([shapely.Polygon(outline) for outline in town.sidewalks])
-        verge = raised - paved
-    else:
-        strip = shapely.buffer(road, KERBSTONE_WIDTH + scenery.verge_width)
-        verge = strip - _corners(town)
-    verge |= _enclosed(road)
+        unpaved = shapely.difference(ring, paved) - _corners(town, CORNER + scenery.sidewalk_width)
+        verge = shapely.union_all([verge, unpaved])
+    verge = shapely.union_all([verge, _islands_of(road)])
     verge = _without_scraps(shapely.difference(verge, kerb))
-    sidewalk = raised if not town.sidewalks else shapely.union_all([raised, paved])
-    return shapely.difference(sidewalk, shapely.union_all([kerb, verge])), verge
+    sidewalk = shapely.union_all([ring, paved]) - shapely.union_all([kerb, verge])
+    return _without_scraps(sidewalk), verge
 
 
-def _corners(town: Town) -> shapely.Geometry:
-    """Where people cross: junctions and crosswalks."""
+def _corners(town: Town, reach: float) -> shapely.Geometry:
+    """Where people cross: around junctions and crosswalks."""
     lanes = surface.lane_polygons(town)
     crossed = [lanes[name] for name, lane in town.lanes.items() if lane.junction is not None]
     crosswalks = [
@@ -133,7 +147,7 @@ def _corners(town: Town) -> shapely.Geometry:
     ]
     return shapely.union_all(
         [
-            shapely.buffer(shapely.union_all(crossed), CORNER),
+            shapely.buffer(shapely.union_all(crossed), reach),
             shapely.buffer(shapely.union_all(crosswalks), 4.0 + CROSSING_RAMP),
         ]
     )
@@ -143,7 +157,9 @@ def _views(town: Town) -> shapely.Geometry:
     """Ground that trees would hide from drivers: junctions, and what lies before lights and signs."""
     lines = [_line_of_sight(light.pole, light.yaw) for light in town.lights.values()]
     lines += [_line_of_sight(np.array([sign.x, sign.y]), sign.yaw) for sign in town.signs]
-    return shapely.union_all([_corners(town), *shapely.buffer(lines, 0.5 * POLE_CLEARANCE)])
+    return shapely.union_all(
+        [_corners(town, JUNCTION_VIEW), *shapely.buffer(lines, 0.5 * POLE_CLEARANCE)]
+    )
 
 
 def _line_of_sight(spot: Float[np.ndarray, "2"], yaw: float) -> shapely.LineString:
@@ -152,5 +168,9 @@ def _line_of_sight(spot: Float[np.ndarray, "2"], yaw: float) -> shapely.LineStri
 
 
 def _without_scraps(area: shapely.Geometry) -> shapely.Geometry:
-    parts = shapely.get_parts(shapely.simplify(area, CHORD_ERROR))
+    """Drop slivers and small patches."""
+    wide = shapely.buffer(
+        shapely.buffer(area, -0.5 * SLIVER, join_style="mitre"), 0.5 * SLIVER, join_style="mitre"
+    )
+    parts = shapely.get_parts(shapely.simplify(wide, CHORD_ERROR))
     return shapely.union_all([part for part in parts if part.area >= SMALLEST_PATCH])

@@ -49,6 +49,7 @@ class SceneryConfig:
         pole_height: Height of a light pole [m].
         tree_spacing: Mean distance between two trees along a verge; 0 for no trees [m].
         tree_height: Lowest and highest tree [m].
+        garden_tree_spacing: Mean distance between trees behind the houses, in blocks that roads enclose; 0 for none [m].
     """
 
     seed: int = 0
@@ -62,6 +63,7 @@ class SceneryConfig:
     pole_height: float = 4.5
     tree_spacing: float = 24.0
     tree_height: tuple[float, float] = (4.5, 7.5)
+    garden_tree_spacing: float = 40.0
 
     def __post_init__(self) -> None:
         for name in (
@@ -75,7 +77,7 @@ class SceneryConfig:
             require(
                 0.0 < low <= high, f"{name} is {low} to {high} m; expected 0 < least <= largest."
             )
-        for name in ("verge_width", "tree_spacing", "building_setback"):
+        for name in ("verge_width", "tree_spacing", "building_setback", "garden_tree_spacing"):
             value = getattr(self, name)
             require(value >= 0.0, f"{name} is {value} m; expected 0 or more.")
         require(

@@ -1,4 +1,4 @@
-"""Trees in the verges, from a seed."""
+"""Trees in verges and gardens, from a seed."""
 
 from dataclasses import dataclass
 
@@ -66,6 +66,35 @@ def plant_trees(
             if not keep_clear.intersects(spot) and verge.contains(spot.buffer(tree.trunk_radius)):
                 trees.append(tree)
             station += scenery.tree_spacing * (1.0 + SPACING_SPREAD * rng.uniform(-1.0, 1.0))
+    return tuple(trees)
+
+
+def plant_gardens(
+    gardens: shapely.Geometry, scenery: SceneryConfig, rng: np.random.Generator
+) -> tuple[Tree, ...]:
+    """Scatter trees over gardens and parks.
+
+    Args:
+        gardens: Where trunks may stand [m].
+        scenery: Spacing and sizes; a spacing of 0 plants none.
+        rng: Draws places and sizes.
+
+    Returns:
+        Trees with room between them; as many as fit.
+    """
+    trees: list[Tree] = []
+    if not scenery.garden_tree_spacing or gardens.is_empty:
+        return ()
+    shapely.prepare(gardens)
+    left, bottom, right, top = gardens.bounds
+    num_tries = round((right - left) * (top - bottom) / scenery.garden_tree_spacing**2)
+    for _ in range(num_tries):  # those that fall outside keep the density of those inside
+        spot = shapely.Point(rng.uniform(left, right), rng.uniform(bottom, top))
+        tree = _tree(spot, scenery, rng)
+        reach = [tree.crown_radius + other.crown_radius for other in trees]
+        gaps = [np.hypot(tree.x - other.x, tree.y - other.y) for other in trees]
+        if gardens.contains(spot) and all(np.greater(gaps, reach)):
+            trees.append(tree)
     return tuple(trees)
 
 

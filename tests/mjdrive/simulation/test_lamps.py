@@ -4,6 +4,7 @@ import pytest
 
 from mjdrive.datatypes import Signal, Town, TrafficLight
 from mjdrive.simulation.lamps import DARK, LIT, add_lights, set_lamps
+from mjdrive.simulation.palette import add_materials
 from mjdrive.vehicle.assembly import car_on_road
 
 
@@ -29,7 +30,7 @@ def town() -> Town:
 @pytest.fixture
 def model(town) -> mujoco.MjModel:
     spec = car_on_road(timestep=0.005)
-    spec.add_material(name="lamp")
+    add_materials(spec)
     add_lights(spec, town.lights.values(), height=4.5)
     spec.worldbody.add_geom(name="last", size=[1, 1, 1])
     return spec.compile()

@@ -1,9 +1,14 @@
+from dataclasses import replace
+
+import mujoco
 import numpy as np
 import pytest
 import shapely
 
-from mjdrive.datatypes import Lane, Signal, Town, TrafficLight
-from mjdrive.simulation.markings import DASH_LENGTH, DASH_WIDTH, centre_dashes, stop_bars
+from mjdrive.datatypes import Lane, Marking, Signal, StaticObject, Town, TrafficLight
+from mjdrive.geometry import stations
+from mjdrive.simulation.markings import add_markings, centre_lines, painted, stop_bars, zebra
+from mjdrive.simulation.palette import add_materials
 
 
 def lane(name: str, points: list[list[float]], *, junction: str | None = None) -> Lane:
@@ -44,12 +49,64 @@ def street() -> Town:
     )
 
 
-def test_opposite_lanes_share_one_broken_line_between_them(street):
-    dashes = centre_dashes(street)
-    assert len(dashes) == 10
-    for dash in dashes:
-        assert np.ptp(dash[:, 0]) == pytest.approx(DASH_LENGTH)
-        assert dash[:, 1] == pytest.approx(0.5 * DASH_WIDTH * np.array([-1, -1, 1, 1]))
+def test_map_without_paint_gets_one_line_between_opposite_lanes(street):
+    (line,) = centre_lines(street)
+    assert line.points[:, 1] == pytest.approx(0.0)
+    assert stations(line.points)[-1] == pytest.approx(60.0)
+
+
+def test_left_hand_traffic_gets_the_same_line(street):
+    lanes = {
+        name: replace(lane, centerline=lane.centerline[::-1]) for name, lane in street.lanes.items()
+    }
+    (line,) = centre_lines(replace(street, lanes=lanes))
+    assert line.points[:, 1] == pytest.approx(0.0)
+
+
+def test_broken_line_is_cut_into_dashes_of_the_given_length_and_gap():
+    line = Marking(np.array([[0.0, 0.0], [4.0, 0.0], [20.0, 0.0]]), 0.12, dash=3.0, gap=5.0)
+    dashes = [piece[[0, -1], 0].tolist() for piece in painted(line)]
+    assert dashes == [[0.0, 3.0], [8.0, 11.0], [16.0, 19.0]]
+
+
+def test_unbroken_line_is_one_piece_that_follows_its_bends():
+    bend = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]])
+    (piece,) = painted(Marking(bend, 0.12))
+    assert piece == pytest.approx(bend)
+
+
+def paint(town: Town) -> mujoco.MjModel:
+    spec = mujoco.MjSpec()
+    add_materials(spec)
+    add_markings(spec, town)
+    return spec.compile()
+
+
+def test_paint_of_the_map_has_its_colour_and_covers_its_length_times_width(street):
+    line = Marking(np.array([[0.0, 1.0], [50.0, 1.0]]), 0.2, color="yellow")
+    model = paint(replace(street, markings=(line,)))
+    names = {model.geom(index).name for index in range(model.ngeom)}
+    assert names == {"marking_yellow", "stop_bars"}
+    assert painted_area(model, "marking_yellow") == pytest.approx(50.0 * 0.2, abs=0.05)
+
+
+def painted_area(model: mujoco.MjModel, name: str) -> float:
+    mesh = model.mesh(name)
+    points = model.mesh_vert[mesh.vertadr[0] :][: mesh.vertnum[0]]
+    faces = model.mesh_face[mesh.faceadr[0] :][: mesh.facenum[0]]
+    corners = points[faces]
+    sides = corners[:, 1:] - corners[:, :1]
+    return float(0.5 * np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1).sum())
+
+
+def test_crosswalk_is_striped_along_the_traffic_and_half_covered(street):
+    outline = np.array([[20.0, -4.0], [24.0, -4.0], [24.0, 4.0], [20.0, 4.0]])
+    stripes = zebra(StaticObject("1", "crosswalk", outline, 0.0), street)
+    assert stripes.area == pytest.approx(0.5 * 4.0 * 8.0, rel=0.1)
+    for stripe in stripes.geoms:
+        left, bottom, right, top = stripe.bounds
+        assert right - left == pytest.approx(4.0)
+        assert top - bottom <= 0.5 + 1e-9
 
 
 def test_stop_bar_lies_on_the_lane_before_the_stop_line(street):
@@ -59,6 +116,6 @@ def test_stop_bar_lies_on_the_lane_before_the_stop_line(street):
     assert bar[:, 0].max() == pytest.approx(60.0)
 
 
-def test_paint_faces_the_sky(street):
-    for quad in (*centre_dashes(street), *stop_bars(street)):
+def test_stop_bars_face_the_sky(street):
+    for quad in stop_bars(street):
         assert shapely.LinearRing(quad).is_ccw

@@ -12,7 +12,7 @@ from mjdrive.town.scenery import Scenery, lay_out
 from mjdrive.town.settings import SceneryConfig
 
 TOWNS = library.town_names()
-NO_TREES = SceneryConfig(tree_spacing=0.0)
+NO_TREES = SceneryConfig(tree_spacing=0.0, garden_tree_spacing=0.0)
 
 
 @functools.cache
@@ -50,8 +50,18 @@ def test_houses_leave_road_sidewalk_verge_and_each_other_alone(name):
 
 
 @pytest.mark.parametrize("name", TOWNS)
-def test_trees_stand_on_the_verge_and_away_from_junctions(name):
-    town, scenery = library.load(name), layout(name)
+def test_trees_stand_in_verges_and_gardens_alone(name):
+    scenery = layout(name)
+    houses = [house.footprint() for house in scenery.buildings]
+    elsewhere = shapely.union_all([scenery.road, scenery.sidewalk, *houses])
+    assert len(scenery.trees) > 20
+    assert not np.any(shapely.intersects(elsewhere, trunks(scenery)))
+
+
+@pytest.mark.parametrize("name", TOWNS)
+def test_street_trees_stand_wholly_on_the_verge_and_hide_no_junction(name):
+    town = library.load(name)
+    scenery = lay_out(town, replace(library.load_settings(name).scenery, garden_tree_spacing=0.0))
     lanes = surface.lane_polygons(town)
     crossed = shapely.union_all([lanes[lane.id] for lane in town.lanes.values() if lane.junction])
     assert len(scenery.trees) > 10
