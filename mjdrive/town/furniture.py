@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 import numpy as np
+import shapely
 from jaxtyping import Float
 
 from mjdrive.datatypes import Marking, Sign, StaticObject
@@ -85,7 +86,9 @@ def sidewalks(road_map: RoadMap) -> tuple[Float[np.ndarray, "_ 2"], ...]:
                 right, left = (
                     lane_edge(road, index, number) for number in sorted((record.id, towards_middle))
                 )
-                outlines.append(np.concatenate([right, left[::-1]]))
+                outline = np.concatenate([right, left[::-1]])
+                if shapely.Polygon(outline).area > 0.0:
+                    outlines.append(outline)
     return tuple(outlines)
 
 
