@@ -11,6 +11,9 @@ from mjdrive.town.lane_index import LaneIndex
 
 Point = tuple[float, float]
 
+_CELL = 16.0
+"""Side of the squares that remember which lights are around them [m]."""
+
 
 class RedLightWatch:
     """Watches the stop lines of a town for one drive.
@@ -37,8 +40,8 @@ class RedLightWatch:
         self._near_tail, self._far_tail = 0.8 * half_length, half_length + 1.0
         self._lights = tuple(town.lights.values())
         self._watched = [_watched(light, config.stop_line_share) for light in self._lights]
-        middles = np.array([light.stop_line.mean(axis=0) for light in self._lights]).reshape(-1, 2)
-        self._middle_x, self._middle_y = middles.T
+        self._middles = np.array([light.stop_line.mean(axis=0) for light in self._lights])
+        self._nearby: dict[tuple[int, int], list[tuple[int, Point]]] = {}
         self.reset()
 
     def reset(self) -> None:
@@ -64,10 +67,13 @@ class RedLightWatch:
         if self._config.stop_line_sweep and self._tail_before is not None:
             ends.append(self._tail_before)  # what lies between two steps, too
         self._tail_before = near_tail
-        distance = (self._middle_x - x) ** 2 + (self._middle_y - y) ** 2
-        for number in np.flatnonzero(distance <= self._config.light_distance**2):
+        for number, middle in self._lights_around(x, y):
             light = self._lights[number]
-            if lights[light.id] is not Signal.RED or _signal(light) == self._last_run:
+            if (
+                math.dist(centre, middle) > self._config.light_distance
+                or lights[light.id] is not Signal.RED
+                or _signal(light) == self._last_run
+            ):
                 continue
             if math.cos(yaw - light.yaw) > 0 and any(
                 self._comes_over(light, self._watched[number], near_tail, end) for end in ends
@@ -75,6 +81,19 @@ class RedLightWatch:
                 self._last_run = _signal(light)
                 return light.id
         return None
+
+    def _lights_around(self, x: float, y: float) -> list[tuple[int, Point]]:
+        """Numbers and stop lines of the lights that may be within `light_distance`, and of few others."""
+        key = (math.floor(x / _CELL), math.floor(y / _CELL))
+        if key not in self._nearby:
+            middle_of_cell = (np.array(key) + 0.5) * _CELL
+            reach = self._config.light_distance + _CELL  # more than half a diagonal
+            off = np.hypot(*(self._middles.reshape(-1, 2) - middle_of_cell).T)
+            found = np.flatnonzero(off <= reach).tolist()
+            self._nearby[key] = [
+                (number, tuple(self._middles[number].tolist())) for number in found
+            ]
+        return self._nearby[key]
 
     def _comes_over(
         self, light: TrafficLight, watched: tuple[Point, Point], start: Point, end: Point

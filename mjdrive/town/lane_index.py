@@ -12,7 +12,7 @@ from mjdrive.datatypes import Lane, Town
 REACH = 10.0
 """Lanes whose centre lines are farther from a point than this may be left out [m]."""
 
-_CELL = 4.0
+_CELL = 8.0
 """Side of the squares that remember which segments are near them [m]."""
 
 _SEAM = 0.01
@@ -95,9 +95,9 @@ class LaneIndex:
         distance = np.hypot(beyond, left)
         best = [first + int(distance[first:last].argmin()) for first, last in cell.spans]
         return [
-            _place(cell, index, float(along[index]), float(left[index]), float(distance[index]))
+            self._place(cell, index, along=float(along[index]), left=float(left[index]), off=off)
             for index in best
-            if distance[index] <= limit
+            if (off := float(distance[index])) <= limit
         ]
 
     def _cut(self, reach: float, column: int, row: int) -> "_Cell":
@@ -105,15 +105,33 @@ class LaneIndex:
         x, y = column * _CELL, row * _CELL
         box = shapely.box(x - reach, y - reach, x + _CELL + reach, y + _CELL + reach)
         found = np.sort(self._tree.query(box))
-        lanes = self._lane[found]
-        table = self._table[found]
-        edges = np.flatnonzero(np.diff(lanes, prepend=-1, append=-1)).tolist()
+        lanes, table = self._lane[found], self._table[found]
+        first = [0, *(np.flatnonzero(lanes[1:] != lanes[:-1]) + 1).tolist(), len(found)]
         return _Cell(
             frames=table[:, _FRAME].reshape(-1, 2, 3).transpose(1, 0, 2).copy(),
             lengths=table[:, _LENGTH].copy(),
-            lanes=[self._names[index] for index in lanes],
-            spans=list(pairwise(edges)) if len(found) else [],
-            facts=table[:, _LENGTH:].tolist(),
+            lanes=lanes,
+            spans=list(pairwise(first)) if len(found) else [],
+            facts=table[:, _LENGTH:],
+        )
+
+    def _place(
+        self, cell: "_Cell", index: int, *, along: float, left: float, off: float
+    ) -> LanePlace:
+        """Describe a point as seen from one segment: `along` it, to the `left` and `off` it [m]."""
+        length, half_start, half_end, station, yaw, margin_before, margin_after = cell.facts[
+            index
+        ].tolist()
+        clipped = min(max(along, 0.0), length)
+        half_width = half_start + clipped / length * (half_end - half_start)
+        is_between_ends = -margin_before <= along <= length + margin_after
+        return LanePlace(
+            self._names[cell.lanes[index]],
+            station + clipped,
+            math.copysign(off, left),
+            yaw,
+            half_width,
+            is_between_ends and off <= half_width + _SEAM,
         )
 
 
@@ -123,32 +141,16 @@ class _Cell(NamedTuple):
     Attributes:
         frames: World point with a 1 to distance along and to the left of each segment, shape (2, S, 3).
         lengths: Of the segments, shape (S,) [m].
-        lanes: Name of the lane of each segment.
+        lanes: Number of the lane of each segment, shape (S,).
         spans: First segment of each lane, and the one after its last.
-        facts: The rest of the table of `_segments`, row by row.
+        facts: The rest of the table of `_segments`, shape (S, 7).
     """
 
     frames: np.ndarray
     lengths: np.ndarray
-    lanes: list[str]
+    lanes: np.ndarray
     spans: list[tuple[int, int]]
-    facts: list[list[float]]
-
-
-def _place(cell: _Cell, index: int, along: float, left: float, distance: float) -> LanePlace:
-    """Describe a point as seen from one segment, on which it lies `along` and to the `left` [m]."""
-    length, half_start, half_end, station, yaw, margin_before, margin_after = cell.facts[index]
-    clipped = min(max(along, 0.0), length)
-    half_width = half_start + clipped / length * (half_end - half_start)
-    is_between_ends = -margin_before <= along <= length + margin_after
-    return LanePlace(
-        cell.lanes[index],
-        station + clipped,
-        math.copysign(distance, left),
-        yaw,
-        half_width,
-        is_between_ends and distance <= half_width + _SEAM,
-    )
+    facts: np.ndarray
 
 
 def _segments(lane: Lane) -> np.ndarray:
