@@ -6,6 +6,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from mjdrive import geometry
 from mjdrive.config import RulesConfig
 from mjdrive.datatypes import Infraction, InfractionKind, Signal, Town, VehicleState
 from mjdrive.errors import ConfigError
@@ -70,6 +71,40 @@ def test_a_car_in_its_lane_is_on_a_lane(crossroads: Town) -> None:
     # The centre counts, not the rear axle.
     across = VehicleState(-30.0, -3.0, -np.pi / 2, 0.0, 0.0, 0.0)
     assert not rules.on_lane(across)
+
+
+def test_driving_along_the_middle_of_every_lane_breaks_no_rule(town02: Town) -> None:
+    rules = Rules(town02, VehicleParameters.default())
+    green = dict.fromkeys(town02.lights, Signal.GREEN)
+    for lane in town02.lanes.values():
+        rules.reset()
+        points = geometry.resample(lane.centerline, 2.0)
+        for step, (centre, yaw) in enumerate(
+            zip(points, geometry.headings(points).tolist(), strict=True)
+        ):
+            x, y = (centre - AHEAD * np.array([np.cos(yaw), np.sin(yaw)])).tolist()
+            vehicle = VehicleState(x, y, yaw, 10.0, 0.0, 0.0)
+            assert rules.check(time=0.1 * step, vehicle=vehicle, lights=green, hits=()) == (), lane
+            assert rules.on_lane(vehicle)
+
+
+def test_driving_every_street_backwards_is_the_wrong_way(town02: Town) -> None:
+    rules = Rules(town02, VehicleParameters.default())
+    green = dict.fromkeys(town02.lights, Signal.GREEN)
+    streets = [lane for lane in town02.lanes.values() if lane.junction is None]
+    for lane in streets:
+        rules.reset()
+        found: list[Infraction] = []
+        points = geometry.resample(lane.centerline[::-1], 1.0)[1:-1]
+        for step, ((x, y), yaw) in enumerate(
+            zip(points.tolist(), geometry.headings(points).tolist(), strict=True)
+        ):
+            vehicle = VehicleState(
+                x - AHEAD * np.cos(yaw), y - AHEAD * np.sin(yaw), yaw, 10.0, 0.0, 0.0
+            )
+            found += rules.check(time=0.1 * step, vehicle=vehicle, lights=green, hits=())
+        assert [(it.kind, it.cause) for it in found] == [(InfractionKind.WRONG_WAY, lane.id)]
+    assert len(streets) > 10
 
 
 @pytest.mark.parametrize(
