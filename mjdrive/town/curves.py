@@ -38,16 +38,29 @@ def curve(shape: Shape, length: float, s: Float[np.ndarray, " N"]) -> Curve:
     """
     match shape:
         case Line():
-            return s, np.zeros_like(s), np.zeros_like(s)
+            return arc(np.zeros_like(s), s)
         case Arc(curvature):
-            # A chord of an arc: its length is s sinc(angle / 2), its direction half the angle.
-            half_angle = 0.5 * curvature * s
-            chord = s * np.sinc(half_angle / np.pi)
-            return chord * np.cos(half_angle), chord * np.sin(half_angle), 2.0 * half_angle
+            return arc(np.full_like(s, curvature), s)
         case Spiral(start, end):
             return _clothoid(start, (end - start) / length, length, s)
         case _:
             return _polynomial(shape, length, s)
+
+
+def arc(curvature: Float[np.ndarray, " N"], s: Float[np.ndarray, " N"]) -> Curve:
+    """Evaluate arcs by arc length; a curvature of 0 makes a line.
+
+    Args:
+        curvature: Of each arc, positive to the left [1/m].
+        s: Arc length from its start [m].
+
+    Returns:
+        u along the heading of the start [m], v to its left [m] and the heading against it [rad].
+    """
+    # A chord of an arc: its length is s sinc(angle / 2), its direction half the angle.
+    half_angle = 0.5 * curvature * s
+    chord = s * np.sinc(half_angle / np.pi)
+    return chord * np.cos(half_angle), chord * np.sin(half_angle), 2.0 * half_angle
 
 
 def _clothoid(start: float, rate: float, length: float, s: Float[np.ndarray, " N"]) -> Curve:

@@ -1,6 +1,6 @@
 """Where the lanes of an OpenDRIVE road run."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -9,7 +9,7 @@ from jaxtyping import Float
 from mjdrive.errors import TownFormatError
 from mjdrive.town.reference_line import curvature_of, reference_line
 from mjdrive.town.road_map import LaneRecord, Road
-from mjdrive.town.road_shapes import Cubic
+from mjdrive.town.road_shapes import Cubic, Line
 
 __all__ = [
     "CHORD_ERROR",
@@ -35,6 +35,10 @@ _SHORTEST_STEP = 0.001
 _MOST_POINTS = 300_000
 """Largest number of points of one line: more than 100 km of road, or a map that oscillates."""
 
+_NOTHING = Cubic(0.0, 0.0)
+
+_QUARTERS = np.array([[0.25], [0.5], [0.75]])
+
 
 def evaluate(cubics: Sequence[Cubic], s: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
     """Evaluate cubics that follow each other.
@@ -46,12 +50,14 @@ def evaluate(cubics: Sequence[Cubic], s: Float[np.ndarray, " N"]) -> Float[np.nd
     Returns:
         Their values [m].
     """
-    if not cubics:
-        return np.zeros_like(s)
-    starts = np.array([cubic.start for cubic in cubics])
-    index = np.clip(np.searchsorted(starts, s + 1e-9, side="right") - 1, 0, None)
-    a, b, c, d = (np.array([getattr(cubic, name) for cubic in cubics])[index] for name in "abcd")
-    ds = s - starts[index]
+    if len(cubics) < 2:
+        cubic = cubics[0] if cubics else _NOTHING
+        ds, a, b, c, d = s - cubic.start, cubic.a, cubic.b, cubic.c, cubic.d
+    else:
+        table = np.array([(cubic.start, cubic.a, cubic.b, cubic.c, cubic.d) for cubic in cubics])
+        index = np.searchsorted(table[:, 0], s + 1e-9, side="right") - 1
+        starts, a, b, c, d = table[np.maximum(index, 0)].T
+        ds = s - starts
     value: Float[np.ndarray, " N"] = a + ds * (b + ds * (c + ds * d))
     return value
 
@@ -78,14 +84,8 @@ def lane_centre(
     Raises:
         TownFormatError: If the lane bends too sharply to be sampled.
     """
-
-    def middle(s: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
-        inner, outer = lane_edges(road, section_index, lane_id, s)
-        return 0.5 * (inner + outer)
-
-    s, points = _line_beside(road, section_index, lane_id, middle)
-    inner, outer = lane_edges(road, section_index, lane_id, s)
-    return points, np.abs(outer - inner)
+    line = _line_beside(road, section_index, lane_id, 0.5)
+    return line[:, :2], line[:, 2]
 
 
 def lane_edge(road: Road, section_index: int, lane_id: int) -> Float[np.ndarray, "N 2"]:
@@ -102,11 +102,7 @@ def lane_edge(road: Road, section_index: int, lane_id: int) -> Float[np.ndarray,
     Raises:
         TownFormatError: If the edge bends too sharply to be sampled.
     """
-
-    def outer_edge(s: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
-        return lane_edges(road, section_index, lane_id, s)[1]
-
-    return _line_beside(road, section_index, lane_id, outer_edge)[1]
+    return _line_beside(road, section_index, lane_id, 1.0)[:, :2]
 
 
 def lane_edges(
@@ -144,34 +140,34 @@ def _outer_edge(
 
 
 def _line_beside(
-    road: Road,
-    section_index: int,
-    lane_id: int,
-    offset_at: Callable[[Float[np.ndarray, " N"]], Float[np.ndarray, " N"]],
-) -> tuple[Float[np.ndarray, " N"], Float[np.ndarray, "N 2"]]:
-    """Sample a line beside the reference line, halving steps until they keep to `CHORD_ERROR` and `LARGEST_GAP`.
+    road: Road, section_index: int, lane_id: int, share: float
+) -> Float[np.ndarray, "N 3"]:
+    """Sample a line along a lane, halving steps until they keep to `CHORD_ERROR` and `LARGEST_GAP`.
+
+    Args:
+        road: Road of the lane.
+        section_index: Index of its lane section.
+        lane_id: Signed lane number.
+        share: Where in the lane, 0 at the inner edge and 1 at the outer one.
 
     Returns:
-        Stations along the road, shape (N,) [m], and points in the world frame, shape (N, 2) [m].
+        x and y in the world frame, and width of the lane [m].
     """
-
-    def line(s: Float[np.ndarray, " N"]) -> Float[np.ndarray, "N 2"]:
-        points, heading = reference_line(road.pieces, s)
-        return points + offset_at(s)[:, None] * np.stack([-np.sin(heading), np.cos(heading)], 1)
-
     s = _first_stations(road, section_index, lane_id)
-    points = line(s)
-    untried = np.ones(len(s) - 1, dtype=bool)
+    line = _place(road, section_index, lane_id, share, s)
+    untried = np.full(len(s) - 1, not _is_straight(road, section_index))
     while untried.any():
         left, right = s[:-1][untried], s[1:][untried]
-        quarters = np.linspace(left, right, 5)[1:-1]  # (3, step)
-        between = line(quarters.ravel()).reshape(3, -1, 2)
+        quarters = left + (right - left) * _QUARTERS  # (3, step)
+        between = _place(road, section_index, lane_id, share, quarters.ravel()).reshape(3, -1, 3)
         is_split = (right - left > _SHORTEST_STEP) & _is_too_long(
-            points[:-1][untried], points[1:][untried], between
+            line[:-1, :2][untried], line[1:, :2][untried], between[:, :, :2]
         )
+        if not is_split.any():
+            break
         at = np.flatnonzero(untried)[is_split] + 1
         s = np.insert(s, at, quarters[1, is_split])
-        points = np.insert(points, at, between[1, is_split], axis=0)
+        line = np.insert(line, at, between[1, is_split], axis=0)
         if len(s) > _MOST_POINTS:
             raise TownFormatError(
                 f"Lane {lane_id} of road '{road.id}' needs more than {_MOST_POINTS} points to be drawn. Check its "
@@ -180,7 +176,28 @@ def _line_beside(
         untried = np.zeros(len(s) - 1, dtype=bool)
         new = at + np.arange(len(at))
         untried[new - 1] = untried[new] = True
-    return s, points
+    return line
+
+
+def _place(
+    road: Road, section_index: int, lane_id: int, share: float, s: Float[np.ndarray, " N"]
+) -> Float[np.ndarray, "N 3"]:
+    """Evaluate a line along a lane: x, y and width of the lane [m]."""
+    inner, outer = lane_edges(road, section_index, lane_id, s)
+    points, heading = reference_line(road.pieces, s)
+    offset = inner + share * (outer - inner)
+    x = points[:, 0] - offset * np.sin(heading)
+    y = points[:, 1] + offset * np.cos(heading)
+    return np.stack([x, y, np.abs(outer - inner)], axis=1)
+
+
+def _is_straight(road: Road, section_index: int) -> bool:
+    """Tell whether all lines of a section are parallel to one straight line."""
+    if len(road.pieces) > 1 or not isinstance(road.pieces[0].shape, Line):
+        return False
+    lanes = road.sections[section_index].lanes
+    cubics = [road.lane_offsets, *(lane.widths or lane.borders for lane in lanes)]
+    return all(len(some) <= 1 and not any(c.b or c.c or c.d for c in some) for some in cubics)
 
 
 def _is_too_long(
@@ -213,9 +230,12 @@ def _first_stations(road: Road, section_index: int, lane_id: int) -> Float[np.nd
             gap = min(gap, max(np.sqrt(8.0 * CHORD_ERROR / abs(curvature)), _SHORTEST_STEP))
         stations.append(np.linspace(left, right, int(np.ceil((right - left) / gap)) + 1)[1:])
     s = np.concatenate(stations)
-    breaks = np.array(_breaks(road, section_index, lane_id))
-    breaks = breaks[(breaks > start) & (breaks < end)]
-    nearest = np.abs(s[:, None] - breaks).min(axis=0) if len(breaks) else breaks
+    breaks = np.array(
+        [place for place in _breaks(road, section_index, lane_id) if start < place < end]
+    )
+    if not len(breaks):
+        return s
+    nearest = np.abs(s[:, None] - breaks).min(axis=0)
     return np.union1d(s, breaks[nearest > 1e-6])
 
 

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
-from mjdrive.town.curves import curve
-from mjdrive.town.road_shapes import Arc, Piece
+from mjdrive.town.curves import arc, curve
+from mjdrive.town.road_shapes import Arc, Line, Piece
 
 _SAME_PLACE = 1e-9
 """Distance below which a station counts as the start of the next piece or cubic [m]."""
@@ -24,17 +24,18 @@ def reference_line(
     Returns:
         Points in the world frame, shape (N, 2) [m], and headings, shape (N,) [rad].
     """
-    points, heading = np.empty((len(s), 2)), np.empty(len(s))
     index = piece_index(pieces, s)
-    for number in np.unique(index):
-        piece = pieces[number]
-        here = index == number
-        u, v, turn = curve(piece.shape, piece.length, s[here] - piece.s)
-        cos, sin = np.cos(piece.heading), np.sin(piece.heading)
-        points[here, 0] = piece.x + u * cos - v * sin
-        points[here, 1] = piece.y + u * sin + v * cos
-        heading[here] = piece.heading + turn
-    return points, heading
+    table = np.array([(p.s, p.x, p.y, p.heading, curvature_of(p)) for p in pieces])
+    start, x, y, heading, curvature = table[index].T
+    # Lines and arcs, of which most roads are made, all at once; the other pieces one by one.
+    u, v, turn = arc(curvature, s - start)
+    for number, piece in enumerate(pieces):
+        if not isinstance(piece.shape, Line | Arc):
+            here = index == number
+            if here.any():
+                u[here], v[here], turn[here] = curve(piece.shape, piece.length, (s - start)[here])
+    cos, sin = np.cos(heading), np.sin(heading)
+    return np.stack([x + u * cos - v * sin, y + u * sin + v * cos], axis=1), heading + turn
 
 
 def piece_index(pieces: Sequence[Piece], s: Float[np.ndarray, " N"]) -> np.ndarray:

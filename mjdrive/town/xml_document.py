@@ -76,7 +76,7 @@ def open_document(data: bytes, *, source: str) -> tuple[Element, str]:
     _drop_namespace(root)
     if root.tag != "OpenDRIVE":
         raise TownFormatError(
-            f"'{source}':{root.sourceline} starts with <{root.tag}>; expected <OpenDRIVE>."
+            f"{source}:{root.sourceline}: starts with <{root.tag}>; expected <OpenDRIVE>."
         )
     return root, _version(root, source)
 
