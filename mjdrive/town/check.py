@@ -192,7 +192,8 @@ def _crossed_stop_lines(town: Town) -> list[Finding]:
 
 
 def _pairs(lines: list[shapely.LineString]) -> list[tuple[int, int]]:
-    first, second = shapely.STRtree(lines).query(lines, predicate="intersects")
+    geometries = np.array(lines, dtype=object)
+    first, second = shapely.STRtree(geometries).query(geometries, predicate="intersects")
     return [(int(a), int(b)) for a, b in zip(first, second, strict=True) if a < b]
 
 

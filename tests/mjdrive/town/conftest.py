@@ -43,7 +43,7 @@ def _junction(left: str, right: str, stem: str, *, side: float) -> dict[str, obj
         )
         for radius in (9.0 if near else 5.0,)
     ]
-    pole = (60.0, 5.0 * side)
+    pole = (60.0, 40.0 - 35.0 * side)
     lights = [
         {"road": road, "id": f"{stem}{road}{left}", "pole": pole} for road in (left, right, stem)
     ]
@@ -144,7 +144,7 @@ class RoadMaker:
         **more: object,
     ) -> Road:
         """A straight road between two points [m]."""
-        (x, y), far = ends
+        (x, y), far = [tuple(map(float, end)) for end in ends]
         length = float(np.hypot(far[0] - x, far[1] - y))
         pieces = (Piece(0.0, x, y, float(np.arctan2(far[1] - y, far[0] - x)), length, Line()),)
         before, behind = (self.link(link) for link in links)
@@ -153,7 +153,7 @@ class RoadMaker:
 
     def ring(self, name: str, radius: float, angles: tuple[float, float], **more: object) -> Road:
         """One lane around the origin, counter-clockwise between two angles [rad]."""
-        first, last = angles
+        first, last = map(float, angles)
         start = (radius * float(np.cos(first)), radius * float(np.sin(first)))
         road = self.road(name, (start, start), self.section(-1), **more)
         length = radius * (last - first)
