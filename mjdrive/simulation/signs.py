@@ -18,6 +18,7 @@ SIDES = 18  # of a round board
 LAYER = 0.012  # between board, face and digits [m]
 DIGIT = (0.15, 0.30, 0.045)  # width, height and stroke [m]
 DIGIT_PITCH = 0.20  # [m]
+WIDEST_NUMBER = 2.3  # in digits of full size; longer ones are drawn smaller [-]
 SPEED_LIMIT = "274"
 # Which strokes of a seven-segment digit are drawn: top, upper left and right, middle, lower left and right, bottom.
 SEGMENTS = (0b1110111, 0b0010010, 0b1011101, 0b1011011, 0b0111010, 0b1101011, 0b1101111, 0b1010010, 0b1111111, 0b1111011)  # fmt: skip
@@ -61,12 +62,13 @@ def _disc(shell: Shell, sign: Sign, radius: float, front: float, *, back: bool =
 
 def _number(shell: Shell, sign: Sign, number: int, front: float) -> None:
     digits = [int(digit) for digit in str(number)]
+    scale = min(1.0, WIDEST_NUMBER / len(digits))
     for place, digit in enumerate(digits):
         middle = np.array([(place - 0.5 * (len(digits) - 1)) * DIGIT_PITCH, 0.0])
         for stroke, (centre, half) in enumerate(_strokes()):
             if SEGMENTS[digit] >> (6 - stroke) & 1:
                 corners = half * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
-                shell.polygon(_on_board(sign, middle + centre + corners, front))
+                shell.polygon(_on_board(sign, scale * (middle + centre + corners), front))
 
 
 def _strokes() -> list[tuple[np.ndarray, np.ndarray]]:

@@ -2,6 +2,7 @@ import functools
 import os
 import subprocess
 import sys
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -10,10 +11,11 @@ import shapely
 
 from mjdrive import geometry
 from mjdrive.config import SimulationConfig
-from mjdrive.datatypes import Action
+from mjdrive.datatypes import Action, Lane, StaticObject, Town
 from mjdrive.simulation.scene import build_scene, scene_xml
 from mjdrive.town import library, surface
 from mjdrive.town.blocks import Block
+from mjdrive.town.settings import TownSettings
 from mjdrive.vehicle import engine
 from mjdrive.vehicle.car import Car
 
@@ -76,7 +78,7 @@ def test_everything_that_stands_belongs_to_the_world_body(name):
 
 
 @pytest.mark.parametrize("name", TOWNS)
-@pytest.mark.parametrize("prefix", ["kerb_", "building_", "pole_"])
+@pytest.mark.parametrize("prefix", ["kerb_", "building_", "pole_", "tree_"])
 def test_nothing_stands_on_the_road(name, prefix):
     lanes = surface.driving_surface(library.load(name))
     areas = footprints(compiled(name), prefix)
@@ -125,15 +127,37 @@ def test_car_on_any_lane_touches_the_road_alone(name):
         assert names == {"road", "tyre_fl", "tyre_fr", "tyre_rl", "tyre_rr"}, lane.id
 
 
-def drive_off_the_first_straight(duration: float) -> tuple[set[str], float, float]:
-    """Drive straight over the kerb into whatever stands there: names touched, last speed, greatest height."""
-    town, model = library.load("town02"), compiled("town02")
-    lane = max((lane for lane in town.lanes.values() if lane.light), key=lambda lane: len(lane.id))
+def pose_before_a_house(model: mujoco.MjModel) -> tuple[float, float, float]:
+    """Somewhere on a lane of town02, looking to the right at the middle of a house."""
+    town = library.load("town02")
+    obstacles = [
+        area
+        for kind in ("building_", "tree_", "pole_", "sign_")
+        for area in footprints(model, kind)
+    ]
+    for lane in town.lanes.values():
+        for point, yaw in zip(lane.centerline, geometry.headings(lane.centerline), strict=True):
+            right = np.array([np.sin(yaw), -np.cos(yaw)])
+            path = shapely.LineString([point, point + 11.0 * right]).buffer(1.5)
+            if (
+                lane.junction is None
+                and [shapely.intersects(area, path) for area in obstacles].count(True) == 1
+            ):
+                house = next(area for area in obstacles if shapely.intersects(area, path))
+                if house.area > 50.0 and house.buffer(2.0).contains(
+                    shapely.Point(point + 11.0 * right)
+                ):
+                    return (*point.tolist(), geometry.wrap_angle(float(yaw) - np.pi / 2))
+    raise AssertionError("no house beside any lane")
+
+
+def drive_off_the_road(duration: float) -> tuple[set[str], float, float]:
+    """Drive straight over the kerb into a house: names touched, last speed, greatest height."""
+    model = compiled("town02")
     data = mujoco.MjData(model)
     car = Car(model, data)
-    middle = len(lane.centerline) // 2
-    yaw = float(geometry.headings(lane.centerline)[middle])
-    car.place(*lane.centerline[middle], geometry.wrap_angle(yaw - np.pi / 2), speed=8.0)
+    x, y, yaw = pose_before_a_house(model)
+    car.place(x, y, yaw, speed=8.0)
     car.command(Action(0.5, 0.0))
     touched: set[str] = set()
     highest = 0.0
@@ -147,10 +171,65 @@ def drive_off_the_first_straight(duration: float) -> tuple[set[str], float, floa
 
 
 def test_kerb_is_climbed_without_a_jump_and_walls_stop_the_car():
-    touched, speed, highest = drive_off_the_first_straight(4.0)
+    touched, speed, highest = drive_off_the_road(4.0)
     assert {"kerb", "tyre", "hull", "building"} <= touched
     assert speed < 1.0
     assert highest < 0.5
+
+
+COLLIDING = {"road", "kerb", "building", "pole", "sign", "tree", "object", "tyre", "hull"}
+
+
+@pytest.mark.parametrize("name", TOWNS)
+def test_what_only_the_eye_needs_collides_with_nothing(name):
+    model = compiled(name)
+    for index in range(model.ngeom):
+        geom = model.geom(index)
+        collides = bool(geom.contype[0] or geom.conaffinity[0])
+        assert collides == (geom.name.split("_")[0] in COLLIDING), geom.name
+        is_mesh_of_town = geom.type[0] == mujoco.mjtGeom.mjGEOM_MESH and geom.bodyid[0] == 0
+        assert not (is_mesh_of_town and collides and not geom.name.startswith("object_"))
+
+
+@pytest.mark.parametrize("name", TOWNS)
+def test_decoration_is_fused_into_few_geoms(name):
+    model = compiled(name)
+    town = library.load(name)
+    decoration = [
+        index
+        for index in range(model.ngeom)
+        if model.geom_bodyid[index] == 0 and not model.geom_contype[index]
+    ]
+    heads_and_lamps = 4 * len(town.lights)
+    assert len(decoration) - heads_and_lamps < 40
+
+
+def bare_street() -> Town:
+    """One lane and nothing else: no lights, signs, marks or objects."""
+    lane = Lane("a", np.array([[0.0, 0.0], [60.0, 0.0]]), 4.0, (), None, None)
+    return Town("bare", {"a": lane}, {}, np.array([0.0, -2.0, 60.0, 2.0]), "")
+
+
+def names_of(town: Town) -> set[str]:
+    model = build_scene(town, TownSettings(), timestep=TIMESTEP).compile()
+    return {model.geom(index).name for index in range(model.ngeom)}
+
+
+def test_street_without_lights_signs_and_paint_can_be_built():
+    names = names_of(bare_street())
+    assert {"road", "asphalt", "kerb_0", "building_0"} <= names
+    assert not any(name.startswith(("lamp", "pole", "sign", "marking", "stop")) for name in names)
+
+
+def test_objects_of_the_map_are_obstacles_and_paint_is_not():
+    square = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    things = (
+        StaticObject("hall", "building", square + np.array([30.0, 12.0]), 5.0),
+        StaticObject("oak", "tree", square + np.array([10.0, 8.0]), 6.0),
+        StaticObject("zebra", "crosswalk", 2.0 * square + np.array([30.0, 0.0]), 0.0),
+    )
+    names = names_of(replace(bare_street(), objects=things))
+    assert {"object_0_0", "object_tree_0", "crosswalks"} <= names
 
 
 def test_other_seed_builds_other_houses():
