@@ -67,7 +67,7 @@ def pack(bev: UInt8[np.ndarray, "C H W"]) -> UInt8[np.ndarray, "H W"]:
     code = (bev[Layer.ROAD] & 1) | (bev[Layer.LANE_LINES] & 2)
     for place, layer in enumerate(LIGHT_LAYERS):
         # The two highest bits tell nothing, green, yellow and red apart.
-        code |= bev[layer] >> 6 << (2 + 2 * place)
+        code |= (bev[layer] >> (4 - 2 * place)) & (0b11 << (2 + 2 * place))
     return code
 
 
