@@ -28,14 +28,18 @@ def test_picture_does_not_depend_on_the_users_style(
         assert draw(drive, crossing, tmp_path / "b.png") == plain
 
 
-@pytest.mark.parametrize("kind", InfractionKind, ids=lambda kind: kind.name.lower())
-def test_every_kind_of_infraction_shows(
-    crossing: Town, make_drive: Make, tmp_path: Path, kind: InfractionKind
+def test_every_kind_of_infraction_looks_different(
+    crossing: Town, make_drive: Make, tmp_path: Path
 ) -> None:
-    x = np.linspace(0.0, 100.0, 201)
-    infractions = (Infraction(kind, 3.0, 30.0, 0.0, "cause"),)
-    clean = draw(make_drive(x), crossing, tmp_path / "a.png")
-    assert draw(make_drive(x, infractions=infractions), crossing, tmp_path / "b.png") != clean
+    drives = [
+        make_drive(np.linspace(0.0, 100.0, 201), infractions=infractions)
+        for infractions in (
+            (),
+            *((Infraction(kind, 3.0, 30.0, 0.0, ""),) for kind in InfractionKind),
+        )
+    ]
+    pictures = {draw(drive, crossing, tmp_path / "a.png") for drive in drives}
+    assert len(pictures) == 1 + len(InfractionKind)
 
 
 def test_waiting_is_shaded(crossing: Town, make_drive: Make, tmp_path: Path) -> None:
