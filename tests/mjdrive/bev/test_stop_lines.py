@@ -78,12 +78,12 @@ def test_range_is_fifty_metres_unless_told_otherwise(make_street):
 
 
 def test_every_bar_that_reaches_into_the_view_is_drawn(make_street):
-    # The bar is half a bar's length and thickness outside on the left, where its middle is not in the view.
-    town = make_street()
-    shown = BevProjector(town).project(x=80.0, y=-22.8, yaw=0.0, time=5.0, light_phase=0.0)
-    _, columns = np.nonzero(shown[Layer.LIGHTS_NOW])
-    assert columns.min() == 0
-    assert columns.max() < 11
+    # Its middle is beyond the far left corner, 37.5 m from the ego point; half of 6.4 m reach in.
+    projector = BevProjector(make_street(lane_width=8.0))
+    shown = projector.project(x=100 - 1.35 - 30.2, y=-4 - 22.2, yaw=0.0, time=5.0, light_phase=0.0)
+    rows, columns = np.nonzero(shown[Layer.LIGHTS_NOW])
+    assert columns.min() == rows.min() == 0
+    assert columns.max() == pytest.approx(96 + 5 * (3.2 - 22.2) + 3, abs=1)
 
 
 def test_channels_show_their_own_time_while_lights_change(make_street):
