@@ -76,10 +76,11 @@ def _ring_roads(plan: StreetPlan, node: str, names: list[str]) -> list[Road]:
     bearings = [_bearing(plan, node, road) for road in ring.arms]
     gaps = [(there - here) % (2.0 * np.pi) for here, there in pairwise([*bearings, bearings[0]])]
     spans = [gap - 2.0 * half_gap for gap in gaps]
-    if min(spans) * ring.radius < _SHORTEST_RING_ROAD or not np.isclose(sum(gaps), 2.0 * np.pi):
+    least_gap = 2.0 * half_gap + _SHORTEST_RING_ROAD / ring.radius
+    if min(gaps) < least_gap or not np.isclose(sum(gaps), 2.0 * np.pi):
         raise TownFormatError(
             f"Roundabout '{node}' has streets at {', '.join(f'{np.degrees(b):.0f}' for b in bearings)} degrees; "
-            f"expected them counter-clockwise and more than {np.degrees(2.0 * half_gap):.0f} degrees apart. "
+            f"expected them counter-clockwise and at least {np.degrees(least_gap):.0f} degrees apart. "
             "Sort its arms, or take a larger radius or a smaller entry_radius."
         )
     return [
