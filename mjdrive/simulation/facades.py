@@ -5,7 +5,6 @@ takes four faces and not twenty.
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -40,9 +39,9 @@ def add_houses(spec: mujoco.MjSpec, houses: Sequence[Block], *, rng: np.random.G
     for number, house in enumerate(houses):
         color = int(rng.integers(len(palette.WALLS)))
         add_block(spec, f"building_{number}", house, material=palette.wall(color))
-        facades.dress(house, color, door_share=rng.uniform(0.2, 0.8))
+        facades.dress(walls_of(house), house.height, color, door_share=rng.uniform(0.2, 0.8))
         roofs.cover(house, rng)
-    facades.show(spec)
+    facades.show(spec, "facade")
     roofs.show(spec)
 
 
@@ -53,34 +52,37 @@ class Facades:
         self._windows = [Shell() for _ in (*palette.WALLS, palette.STONE)]
         self._stone, self._doors = Shell(), Shell()
 
-    def dress(self, house: Block, color: int, *, door_share: float) -> None:
-        """Hang windows on every floor, and a door on the ground floor of the front.
+    def dress(self, walls: Sequence[Wall], height: float, color: int, *, door_share: float) -> None:
+        """Hang windows on every floor, and a door on the ground floor of the first wall.
 
         Args:
-            house: The house.
+            walls: Sides of the house, counter-clockwise, its front first.
+            height: Of the house [m].
             color: Index into `palette.WALLS`.
             door_share: Where the door is, as a share of the front [-].
         """
-        num_floors = max(1, round(house.height / FLOOR_HEIGHT))
-        floor_height = house.height / num_floors
-        corners = replace(house, length=house.length + PROUD, depth=house.depth + PROUD).corners()
-        self._stone.fence(np.concatenate([corners, corners[:1]]), bottom=0.0, top=PLINTH_HEIGHT)
-        for side, wall in enumerate(walls_of(house)):
+        num_floors = max(1, round(height / FLOOR_HEIGHT))
+        floor_height = height / num_floors
+        for side, wall in enumerate(walls):
             has_shop = side == 0 and num_floors >= FEWEST_FLOORS_WITH_SHOP
-            if has_shop:
-                shop = wall.panel(0.0, wall.width, PLINTH_HEIGHT, floor_height, proud=0.5 * PROUD)
-                self._stone.polygon(shop)
-            for floor in range(num_floors):
+            stone_top = floor_height if has_shop else min(PLINTH_HEIGHT, height)
+            self._stone.polygon(wall.panel(0.0, wall.width, 0.0, stone_top, proud=0.5 * PROUD))
+            for floor in range(num_floors if floor_height > WINDOW[1] else 0):
                 door = door_share if side == 0 and floor == 0 else None
                 piers = palette.STONE_WINDOWS if has_shop and floor == 0 else color
                 self._hang(wall, floor * floor_height, piers, door=door)
 
-    def show(self, spec: mujoco.MjSpec) -> None:
-        """Add everything to the scene."""
+    def show(self, spec: mujoco.MjSpec, prefix: str) -> None:
+        """Add everything to the scene.
+
+        Args:
+            spec: Scene with the materials of `palette`.
+            prefix: Of the names of meshes and geoms.
+        """
         for color, shell in enumerate(self._windows):
-            shell.show(spec, f"facade_windows_{color}", material=palette.windows(color))
-        self._stone.show(spec, "facade_stone", material="stone")
-        self._doors.show(spec, "facade_doors", material="door")
+            shell.show(spec, f"{prefix}_windows_{color}", material=palette.windows(color))
+        self._stone.show(spec, f"{prefix}_stone", material="stone")
+        self._doors.show(spec, f"{prefix}_doors", material="door")
 
     def _hang(self, wall: Wall, floor: float, piers: int, *, door: float | None) -> None:
         """Hang the windows of one floor; a door takes the place of one."""
@@ -88,7 +90,7 @@ class Facades:
         pitch = wall.width / max(num_windows, 1)
         bottom, top = floor + WINDOW[0], floor + WINDOW[1]
         bands = [(0, num_windows)]
-        if door is not None:
+        if door is not None and num_windows:
             slot = int(door * num_windows)
             middle = (slot + 0.5) * pitch
             sides = middle - 0.5 * DOOR[0], middle + 0.5 * DOOR[0]

@@ -16,7 +16,7 @@ CROWN_RINGS = (
 )  # height and radius over those of the crown [-]
 CROWN_SIDES = 6
 ROUGHNESS = 0.14  # spread of the radius [-]
-CROWN_STRETCH = 1.15  # half height over radius [-]
+CROWN_STRETCH = 1.25  # half height over radius [-]
 
 
 def add_trees(

@@ -8,10 +8,11 @@ import numpy as np
 import shapely
 from jaxtyping import Float
 
-from mjdrive.datatypes import Marking, StaticObject, Town
+from mjdrive.datatypes import Marking, Town
 from mjdrive.geometry import offset_polyline, stations
 from mjdrive.simulation.meshes import Shell
 from mjdrive.town import surface
+from mjdrive.town.scenery import ground_of
 
 PAINT_HEIGHT = (
     0.01  # [m]; enough to be drawn above the asphalt, and invisible from where cameras are
@@ -45,10 +46,12 @@ def add_markings(spec: mujoco.MjSpec, town: Town) -> None:
         bars.polygon(np.column_stack([bar, np.full(4, PAINT_HEIGHT)]))
     bars.show(spec, "stop_bars", material="white_paint")
     for thing in town.objects:
+        outline = ground_of([thing.outline])
+        if outline.is_empty:
+            continue
         if thing.type == "crosswalk":
-            areas.area(zebra(thing, town), height=1.2 * PAINT_HEIGHT)
+            areas.area(zebra(outline, town), height=1.2 * PAINT_HEIGHT)
         elif thing.type == "parkingSpace":
-            outline = shapely.Polygon(thing.outline)
             areas.area(outline - shapely.buffer(outline, -OUTLINE_WIDTH), height=PAINT_HEIGHT)
     areas.show(spec, "crosswalks", material="white_paint")
 
@@ -130,17 +133,16 @@ def stop_bars(town: Town) -> list[Float[np.ndarray, "4 2"]]:
     return bars
 
 
-def zebra(crosswalk: StaticObject, town: Town) -> shapely.Geometry:
+def zebra(area: shapely.Geometry, town: Town) -> shapely.Geometry:
     """Stripe a crosswalk along the traffic that it crosses.
 
     Args:
-        crosswalk: Object with the outline to fill.
+        area: The crosswalk, not empty [m].
         town: Road network; its nearest lane says which way the stripes run.
 
     Returns:
         The stripes, world frame [m].
     """
-    area = shapely.Polygon(crosswalk.outline)
     middle = shapely.get_coordinates(area.centroid)[0]
     lines = [shapely.LineString(lane.centerline) for lane in town.lanes.values()]
     line = lines[int(np.argmin(shapely.distance(lines, area.centroid)))]
@@ -151,7 +153,7 @@ def zebra(crosswalk: StaticObject, town: Town) -> shapely.Geometry:
     )
     along = (after - before) / np.hypot(*(after - before))
     across = np.array([-along[1], along[0]])
-    reach = float(np.hypot(*(crosswalk.outline - middle).T).max())
+    reach = float(np.hypot(*(shapely.get_coordinates(area) - middle).T).max())
     stripes = [
         _ribbon(
             np.array([middle - reach * along, middle + reach * along]) + offset * across,

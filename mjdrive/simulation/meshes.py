@@ -1,5 +1,7 @@
 """Surfaces for the eye only: many faces of one material become one mesh, which costs the physics nothing."""
 
+import functools
+
 import mujoco
 import numpy as np
 import shapely
@@ -148,10 +150,12 @@ def _at(points: Float[np.ndarray, "N 2"], height: float) -> Float[np.ndarray, "N
     return np.column_stack([points, np.full(len(points), height)])
 
 
+@functools.cache
 def _fan(num_points: int) -> np.ndarray:
     """Triangles of a convex polygon."""
-    last = np.arange(2, num_points)
-    return np.stack([0 * last, last - 1, last], axis=1)
+    faces = np.array([[0, last - 1, last] for last in range(2, num_points)])
+    faces.setflags(write=False)
+    return faces
 
 
 def _strip(num_points: int) -> np.ndarray:

@@ -7,16 +7,29 @@ import numpy as np
 import shapely
 
 from mjdrive.datatypes import StaticObject
+from mjdrive.simulation import palette
 from mjdrive.simulation.blocks import DECIMALS, UNSEEN_GROUP
+from mjdrive.simulation.facades import Facades
 from mjdrive.simulation.greenery import add_trees
 from mjdrive.simulation.meshes import Shell
+from mjdrive.simulation.walls import walls_along
 from mjdrive.town.blocks import rings
+from mjdrive.town.scenery import ground_of
 from mjdrive.town.street_trees import Tree
 from mjdrive.vehicle.assembly import OBSTACLE_BITS
 
 TRUNK_SHARE = 0.12  # radius of a trunk over that of the outline of its tree [-]
-MATERIALS = {"building": "wall_0", "pole": "metal", "streetLamp": "metal", "vegetation": "grass"}
+THINNEST_TRUNK = 0.05  # radius [m]
+TREE, BUILDING = "tree", "building"
+BUILDING_COLOR = 0  # number of its wall
+MATERIALS = {
+    BUILDING: palette.wall(BUILDING_COLOR),
+    "pole": "metal",
+    "streetLamp": "metal",
+    "vegetation": "grass",
+}
 OTHER_MATERIAL = "concrete"
+SMOOTHING = 0.1  # facades leave out corners smaller than this [m]
 FILLED = 0.98  # an outline that fills its hull so far counts as convex [-]
 
 
@@ -30,35 +43,48 @@ def add_objects(
         objects: What stands, not what is painted on the ground.
         rng: Draws how crowns of trees grow.
     """
-    trees = [_as_tree(thing) for thing in objects if thing.type == "tree"]
+    placed = [(thing, ground_of([thing.outline])) for thing in objects]
+    placed = [(thing, area) for thing, area in placed if not area.is_empty]
+    trees = [_as_tree(thing, area) for thing, area in placed if thing.type == TREE]
     add_trees(spec, trees, rng=rng, prefix="object_tree")
-    shells: dict[str, Shell] = {}
-    others = [thing for thing in objects if thing.type != "tree"]
-    for number, thing in enumerate(others):
-        area = shapely.Polygon(thing.outline)
+    solids = [(thing, area) for thing, area in placed if thing.type != TREE]
+    for number, (thing, area) in enumerate(solids):
         for piece, part in enumerate(_convex_parts(area)):
             _add_obstacle(spec, f"object_{number}_{piece}", part, thing.height)
-        shell = shells.setdefault(MATERIALS.get(thing.type, OTHER_MATERIAL), Shell())
-        shell.area(area, height=thing.height)
-        for ring in rings(area):
-            shell.fence(ring, bottom=0.0, top=thing.height)
-    for material, shell in shells.items():
-        shell.show(spec, f"objects_{material}", material=material)
+    _show(spec, solids)
 
 
-def _as_tree(thing: StaticObject) -> Tree:
-    area = shapely.Polygon(thing.outline)
+def _as_tree(thing: StaticObject, area: shapely.Geometry) -> Tree:
     radius = float(np.sqrt(area.area / np.pi))
     return Tree(
         x=area.centroid.x,
         y=area.centroid.y,
         height=thing.height,
-        trunk_radius=TRUNK_SHARE * radius,
+        trunk_radius=max(TRUNK_SHARE * radius, THINNEST_TRUNK),
         crown_radius=min(radius, 0.4 * thing.height),
     )
 
 
-def _convex_parts(area: shapely.Polygon) -> list[shapely.Polygon]:
+def _show(spec: mujoco.MjSpec, solids: Sequence[tuple[StaticObject, shapely.Geometry]]) -> None:
+    """Show prisms by material; buildings get windows and a roof of their own colour."""
+    shells: dict[str, Shell] = {}
+    facades = Facades()
+    for thing, area in solids:
+        sides = shells.setdefault(MATERIALS.get(thing.type, OTHER_MATERIAL), Shell())
+        for ring in rings(area):
+            sides.fence(ring, bottom=0.0, top=thing.height)
+        if thing.type == BUILDING:
+            shells.setdefault("gravel", Shell()).area(area, height=thing.height)
+            for ring in rings(shapely.simplify(area, SMOOTHING)):
+                facades.dress(walls_along(ring[:-1]), thing.height, BUILDING_COLOR, door_share=0.5)
+        else:
+            sides.area(area, height=thing.height)
+    for material, shell in shells.items():
+        shell.show(spec, f"placed_{material}", material=material)
+    facades.show(spec, "placed_facade")
+
+
+def _convex_parts(area: shapely.Geometry) -> list[shapely.Polygon]:
     """MuJoCo fills the hollows of a mesh, so hollow outlines are cut."""
     if area.area >= FILLED * area.convex_hull.area:
         return [area.convex_hull]

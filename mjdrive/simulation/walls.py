@@ -43,12 +43,23 @@ class Wall(NamedTuple):
         return np.array([[*low, bottom], [*high, bottom], [*high, top], [*low, top]])
 
 
-def walls_of(block: Block) -> tuple[Wall, Wall, Wall, Wall]:
+def walls_of(block: Block) -> tuple[Wall, ...]:
     """List the sides of a house: its front first, then on counter-clockwise as seen from above."""
-    corners = np.roll(block.corners(), -1, axis=0)
-    closed = np.concatenate([corners, corners[:1]])
-    first, second, third, fourth = (
-        Wall(start, (end - start) / np.hypot(*(end - start)), float(np.hypot(*(end - start))))
-        for start, end in pairwise(closed)
+    return walls_along(np.roll(block.corners(), -1, axis=0))
+
+
+def walls_along(outline: Float[np.ndarray, "N 2"]) -> tuple[Wall, ...]:
+    """List the sides of a building of any shape.
+
+    Args:
+        outline: Ground plan, counter-clockwise, last point not repeated, neighbours distinct, world frame [m].
+
+    Returns:
+        A side for each edge, in order.
+    """
+    closed = np.concatenate([outline, outline[:1]])
+    widths = [float(np.hypot(*(end - start))) for start, end in pairwise(closed)]
+    return tuple(
+        Wall(start, (end - start) / width, width)
+        for (start, end), width in zip(pairwise(closed), widths, strict=True)
     )
-    return first, second, third, fourth

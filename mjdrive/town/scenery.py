@@ -1,6 +1,7 @@
 """What stands and lies beside the roads, as plain geometry: the one layout that pictures, physics and views share."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
@@ -17,14 +18,13 @@ KERBSTONE_WIDTH = 0.15  # [m]
 CHORD_ERROR = 0.03  # largest distance between a kerb and the true edge of the road [m]
 CORNER = 3.0  # around junctions the sidewalk reaches the kerb [m]
 JUNCTION_VIEW = 8.0  # around junctions no tree hides the traffic [m]
-CROSSING_RAMP = 0.5  # paving to both sides of a crosswalk [m]
+CROSSING_RAMP = 1.0  # paving to both sides of a crosswalk, beyond that of a corner [m]
 POLE_CLEARANCE = 5.0  # between a tree and a light or a sign [m]
 DRIVER_VIEW = 25.0  # a light or a sign is seen from this far [m]
 SMALLEST_PATCH = 1.0  # smaller scraps of grass are paved [m^2]
 GARDEN_CLEARANCE = 2.5  # between a tree and a house or a sidewalk [m]
 SLIVER = 0.4  # so are narrower ones [m]
 ON_THE_GROUND = 0.05  # objects up to this height are paint [m]
-SMALLEST_ISLAND = 12.0  # smaller holes between lanes are paved [m^2]
 SMALLEST_BLOCK = (
     700.0  # what roads enclose below this area is an island: grass, no sidewalk, no houses [m^2]
 )
@@ -60,9 +60,10 @@ def lay_out(town: Town, scenery: SceneryConfig) -> Scenery:
         The layout. Houses touch neither road nor sidewalk nor objects of the map.
     """
     rng = np.random.default_rng(scenery.seed)
-    road = _road(town)
-    sidewalk, verge = _sides(town, road, scenery)
-    objects = shapely.union_all([shapely.Polygon(thing.outline) for thing in standing(town)])
+    road = shapely.simplify(surface.road_surface(town), CHORD_ERROR, preserve_topology=True)
+    crossings = _crossings(town)
+    sidewalk, verge = _sides(town, road, crossings, scenery)
+    objects = ground_of([thing.outline for thing in standing(town)])
     raised = shapely.buffer(road, scenery.sidewalk_width)
     streets = shapely.union_all([raised, sidewalk, verge])
     buildings = line_with_houses(streets, scenery, rng, taken=shapely.buffer(objects, 1.0))
@@ -71,12 +72,12 @@ def lay_out(town: Town, scenery: SceneryConfig) -> Scenery:
         scenery,
         rng,
         middle=shapely.buffer(road, 0.5 * (KERBSTONE_WIDTH + scenery.verge_width)),
-        keep_clear=shapely.union_all([_views(town), shapely.buffer(objects, 2.0)]),
+        keep_clear=shapely.union_all([_views(town, crossings), shapely.buffer(objects, 2.0)]),
     )
     footprints = shapely.union_all([house.footprint() for house in buildings])
     built = shapely.buffer(shapely.union_all([footprints, objects]), GARDEN_CLEARANCE)
-    gardens = shapely.union_all(_blocks(streets)) - built
-    trees += plant_gardens(shapely.buffer(gardens, -GARDEN_CLEARANCE), scenery, rng)
+    gardens = shapely.buffer(shapely.union_all(_blocks(streets)), -GARDEN_CLEARANCE) - built
+    trees += plant_gardens(gardens, scenery, rng)
     return Scenery(road=road, sidewalk=sidewalk, verge=verge, buildings=buildings, trees=trees)
 
 
@@ -85,26 +86,11 @@ def standing(town: Town) -> tuple[StaticObject, ...]:
     return tuple(thing for thing in town.objects if thing.height > ON_THE_GROUND)
 
 
-def _road(town: Town) -> shapely.Geometry:
-    """Surface between the kerbs; the islands of roundabouts are no road, even small ones."""
-    road = shapely.difference(surface.road_surface(town), _roundabouts(town))
-    return shapely.simplify(road, CHORD_ERROR, preserve_topology=True)
-
-
-def _roundabouts(town: Town) -> shapely.Geometry:
-    """Holes that traffic runs around on roads, not only on the turning lanes of one junction."""
-    lanes = surface.lane_polygons(town)
-    on_roads = shapely.union_all(
-        [lanes[name] for name, lane in town.lanes.items() if lane.junction is None]
-    )
-    islands = []
-    for part in shapely.get_parts(surface.driving_surface(town)):
-        for ring in part.interiors:
-            hole = shapely.Polygon(ring)
-            along_roads = shapely.intersection(shapely.buffer(on_roads, 0.1), ring).length
-            if hole.area >= SMALLEST_ISLAND and along_roads > 0.25 * ring.length:
-                islands.append(hole)
-    return shapely.buffer(shapely.union_all(islands), -0.3)
+def ground_of(outlines: Sequence[Float[np.ndarray, "_ 2"]]) -> shapely.Geometry:
+    """Join outlines of a map, which may cross themselves, to the ground that they cover [m]."""
+    polygons = shapely.make_valid([shapely.Polygon(outline) for outline in outlines])
+    # What outlines without area leave are lines, which a buffer of no width drops.
+    return shapely.buffer(shapely.union_all(polygons), 0.0)
 
 
 def _islands_of(road: shapely.Geometry) -> shapely.Geometry:
@@ -118,48 +104,37 @@ def _blocks(area: shapely.Geometry) -> list[shapely.Polygon]:
 
 
 def _sides(
-    town: Town, road: shapely.Geometry, scenery: SceneryConfig
+    town: Town, road: shapely.Geometry, crossings: shapely.Geometry, scenery: SceneryConfig
 ) -> tuple[shapely.Geometry, shapely.Geometry]:
     """Split the ground beside the kerb into paving and grass."""
     kerb = shapely.buffer(road, KERBSTONE_WIDTH, join_style="mitre")
     ring = shapely.buffer(road, scenery.sidewalk_width)
+    paved = ground_of(town.sidewalks)
     verge = shapely.buffer(road, KERBSTONE_WIDTH + scenery.verge_width)
-    # Outlines of tight bends cross themselves.
-    paved = shapely.union_all(
-        shapely.make_valid([shapely.Polygon(outline) for outline in town.sidewalks])
-    )
-    verge = shapely.difference(verge, _corners(town, CORNER))
+    verge = shapely.difference(verge, shapely.buffer(crossings, CORNER))
     if town.sidewalks:
-        unpaved = shapely.difference(ring, paved) - _corners(town, CORNER + scenery.sidewalk_width)
-        verge = shapely.union_all([verge, unpaved])
+        corners = shapely.buffer(crossings, CORNER + scenery.sidewalk_width)
+        verge = shapely.union_all([verge, shapely.difference(ring, paved) - corners])
     verge = shapely.union_all([verge, _islands_of(road)])
     verge = _without_scraps(shapely.difference(verge, kerb))
     sidewalk = shapely.union_all([ring, paved]) - shapely.union_all([kerb, verge])
     return _without_scraps(sidewalk), verge
 
 
-def _corners(town: Town, reach: float) -> shapely.Geometry:
-    """Where people cross: around junctions and crosswalks."""
-    lanes = surface.lane_polygons(town)
-    crossed = [lanes[name] for name, lane in town.lanes.items() if lane.junction is not None]
-    crosswalks = [
-        shapely.Polygon(thing.outline) for thing in town.objects if thing.type == "crosswalk"
-    ]
-    return shapely.union_all(
-        [
-            shapely.buffer(shapely.union_all(crossed), reach),
-            shapely.buffer(shapely.union_all(crosswalks), 4.0 + CROSSING_RAMP),
-        ]
-    )
+def _crossings(town: Town) -> shapely.Geometry:
+    """Where people cross: junctions and crosswalks."""
+    crossed = [lane for lane in town.lanes.values() if lane.junction is not None]
+    crosswalks = ground_of([thing.outline for thing in town.objects if thing.type == "crosswalk"])
+    polygons = surface.lane_polygons(replace(town, lanes={lane.id: lane for lane in crossed}))
+    return shapely.union_all([*polygons.values(), shapely.buffer(crosswalks, CROSSING_RAMP)])
 
 
-def _views(town: Town) -> shapely.Geometry:
+def _views(town: Town, crossings: shapely.Geometry) -> shapely.Geometry:
     """Ground that trees would hide from drivers: junctions, and what lies before lights and signs."""
     lines = [_line_of_sight(light.pole, light.yaw) for light in town.lights.values()]
     lines += [_line_of_sight(np.array([sign.x, sign.y]), sign.yaw) for sign in town.signs]
-    return shapely.union_all(
-        [_corners(town, JUNCTION_VIEW), *shapely.buffer(lines, 0.5 * POLE_CLEARANCE)]
-    )
+    sights = shapely.buffer(lines, 0.5 * POLE_CLEARANCE)
+    return shapely.union_all([shapely.buffer(crossings, JUNCTION_VIEW), *sights])
 
 
 def _line_of_sight(spot: Float[np.ndarray, "2"], yaw: float) -> shapely.LineString:

@@ -62,7 +62,7 @@ class SceneryConfig:
     building_gap: tuple[float, float] = (2.0, 10.0)
     pole_height: float = 4.5
     tree_spacing: float = 24.0
-    tree_height: tuple[float, float] = (4.5, 7.5)
+    tree_height: tuple[float, float] = (5.0, 8.0)
     garden_tree_spacing: float = 40.0
 
     def __post_init__(self) -> None:

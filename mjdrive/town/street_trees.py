@@ -9,7 +9,7 @@ from mjdrive.town.blocks import rings
 from mjdrive.town.settings import SceneryConfig
 
 TRUNK_RADIUS = (0.11, 0.19)  # [m]
-CROWN_SHARE = (0.26, 0.36)  # radius of the crown as a share of the height [-]
+CROWN_SHARE = (0.20, 0.27)  # radius of the crown as a share of the height [-]
 SPACING_SPREAD = 0.3  # the distance between two trees varies by this share [-]
 STRAIGHTENING = 0.05  # of the line on which trees stand [m]
 

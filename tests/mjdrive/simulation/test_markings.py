@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import shapely
 
-from mjdrive.datatypes import Lane, Marking, Signal, StaticObject, Town, TrafficLight
+from mjdrive.datatypes import Lane, Marking, Signal, Town, TrafficLight
 from mjdrive.geometry import stations
 from mjdrive.simulation.markings import add_markings, centre_lines, painted, stop_bars, zebra
 from mjdrive.simulation.palette import add_materials
@@ -100,8 +100,7 @@ def painted_area(model: mujoco.MjModel, name: str) -> float:
 
 
 def test_crosswalk_is_striped_along_the_traffic_and_half_covered(street):
-    outline = np.array([[20.0, -4.0], [24.0, -4.0], [24.0, 4.0], [20.0, 4.0]])
-    stripes = zebra(StaticObject("1", "crosswalk", outline, 0.0), street)
+    stripes = zebra(shapely.box(20.0, -4.0, 24.0, 4.0), street)
     assert stripes.area == pytest.approx(0.5 * 4.0 * 8.0, rel=0.1)
     for stripe in stripes.geoms:
         left, bottom, right, top = stripe.bounds
