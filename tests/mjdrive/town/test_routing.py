@@ -196,6 +196,34 @@ def test_a_random_route_into_a_dead_end_is_refused(dead_end: Town) -> None:
         )
 
 
+@pytest.fixture(scope="module")
+def roundabout(roundabout_map: RoadMap) -> Town:
+    return build_town(roundabout_map, name="roundabout", timing=LightTiming(), digest="")
+
+
+@given(seed=st.integers(0, 10_000))
+def test_random_routes_go_round_rather_than_out_into_the_open(roundabout: Town, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    lane, station = routing.random_start(roundabout, rng)
+    assert lane not in ("e/0/1", "w/0/1"), "that way the town ends"
+    route = routing.random_route(roundabout, lane=lane, station=station, length=300.0, rng=rng)
+    assert route.station[-1] == pytest.approx(300.0)
+    # A way out leads on for less than 60 m.
+    before = route.lanes[: route.lane_index[np.searchsorted(route.station, 240.0)]]
+    assert not {"e2/0/-1", "w2/0/-1"} & set(before)
+
+
+def test_a_random_route_that_is_short_enough_may_end_in_a_dead_end(roundabout: Town) -> None:
+    rng = np.random.default_rng(0)
+    routes = [
+        routing.random_route(roundabout, lane="n/0/-1", station=0.0, length=60.0, rng=rng)
+        for _ in range(20)
+    ]
+    assert {"w/0/1", "w3/0/-1"} <= {lane for route in routes for lane in route.lanes}
+    for route in routes:
+        assert route.station[-1] == pytest.approx(60.0)
+
+
 def test_a_random_route_must_start_on_a_lane(ladder: Town) -> None:
     with pytest.raises(UnknownNameError, match="Unknown lane '1/0/-2'"):
         routing.random_route(
