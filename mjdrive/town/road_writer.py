@@ -146,12 +146,6 @@ def _add_mark(lane: Element, mark: RoadMark) -> None:
 
 
 def _add_object(parent: Element, road: Road, thing: ObjectRecord) -> None:
-    (point,), (heading,) = reference_line(road.pieces, np.array([thing.s]))
-    left = np.array([-np.sin(heading), np.cos(heading)])
-    x, y = point + thing.t * left
-    corners = vehicle_from_world(
-        np.array(thing.outline).reshape(-1, 2), x=x, y=y, yaw=heading + thing.heading
-    )
     element = add(
         parent,
         "object",
@@ -165,6 +159,12 @@ def _add_object(parent: Element, road: Road, thing: ObjectRecord) -> None:
         orientation="none",
         height=thing.height,
     )
+    if not thing.outline:
+        return
+    (point,), (heading,) = reference_line(road.pieces, np.array([thing.s]))
+    x, y = point + thing.t * np.array([-np.sin(heading), np.cos(heading)])
+    yaw = float(heading) + thing.heading
+    corners = vehicle_from_world(np.array(thing.outline), x=float(x), y=float(y), yaw=yaw)
     outline = add(add(element, "outlines"), "outline", id=0, outer="true", closed="true")
     for index, (u, v) in enumerate(corners.tolist()):
         # Rounded to a nanometre: a map file that people can read.
