@@ -128,26 +128,18 @@ def test_car_on_any_lane_touches_the_road_alone(name):
 
 
 def pose_before_a_house(model: mujoco.MjModel) -> tuple[float, float, float]:
-    """Somewhere on a lane of town02, looking to the right at the middle of a house."""
-    town = library.load("town02")
-    obstacles = [
-        area
-        for kind in ("building_", "tree_", "pole_", "sign_")
-        for area in footprints(model, kind)
-    ]
-    for lane in town.lanes.values():
+    """Somewhere on a lane of town02, looking to the right at the middle of a house with nothing in between."""
+    houses = footprints(model, "building_")
+    others = [area for kind in ("tree_", "pole_", "sign_") for area in footprints(model, kind)]
+    for lane in library.load("town02").lanes.values():
         for point, yaw in zip(lane.centerline, geometry.headings(lane.centerline), strict=True):
             right = np.array([np.sin(yaw), -np.cos(yaw)])
-            path = shapely.LineString([point, point + 11.0 * right]).buffer(1.5)
-            if (
-                lane.junction is None
-                and [shapely.intersects(area, path) for area in obstacles].count(True) == 1
-            ):
-                house = next(area for area in obstacles if shapely.intersects(area, path))
-                if house.area > 50.0 and house.buffer(2.0).contains(
-                    shapely.Point(point + 11.0 * right)
-                ):
-                    return (*point.tolist(), geometry.wrap_angle(float(yaw) - np.pi / 2))
+            forward = np.array([np.cos(yaw), np.sin(yaw)])
+            end = point + 11.0 * right
+            front = shapely.LineString([end - 3.0 * forward, end + 3.0 * forward])
+            path = shapely.LineString([point, end]).buffer(2.0)
+            if shapely.contains(houses, front).any() and not shapely.intersects(others, path).any():
+                return (*point.tolist(), geometry.wrap_angle(float(yaw) - np.pi / 2))
     raise AssertionError("no house beside any lane")
 
 
