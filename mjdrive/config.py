@@ -104,8 +104,8 @@ class BevConfig:
         history_steps: Control steps back to each light channel, oldest first; 0 is now [-].
         light_width_share: Length of a drawn stop line over the lane width [-].
         light_thickness_px: Thickness of a drawn stop line [px].
-        road_outline_px: Width of the line drawn around each lane of the road channel, odd or 0. Two lanes of 4 m
-            become a road of 9.4 m with 7, which policies have learnt on so far, and the paper's 9.0 m with 5 [px].
+        road_outline_px: Width of the line drawn around each lane of the road channel, odd or 0: two lanes of 4 m become
+            a road of 9.0 m with 5, as the paper's [px].
         origin_ahead_of_rear_axle: Where the picture's ego point lies on the car, ahead of the rear axle [m].
         light_range: Lights whose stop line is farther from the ego point are not drawn [m].
         light_values: "grey" draws green, yellow and red as 80, 170 and 255; "binary" draws red alone, as 255.
@@ -118,7 +118,7 @@ class BevConfig:
     history_steps: tuple[int, int, int] = (15, 8, 0)
     light_width_share: float = 0.8
     light_thickness_px: int = 6
-    road_outline_px: int = 7
+    road_outline_px: int = 5
     origin_ahead_of_rear_axle: float = 1.35
     light_range: float = 50.0
     light_values: Literal["grey", "binary"] = "grey"

@@ -91,7 +91,7 @@ class PlainProjector:
         ]
         outline = np.concatenate([edges[0], edges[1][::-1]])
         cv2.fillPoly(self._road, [outline], MARKED)
-        cv2.polylines(self._road, [outline], True, MARKED, 5)  # which OpenCV draws 7 px wide
+        cv2.polylines(self._road, [outline], True, MARKED, 4)  # which OpenCV draws 5 px wide
         if lane.junction is None:
             cv2.polylines(self._lane_lines, edges, False, MARKED, 1)
 
