@@ -15,7 +15,7 @@ from mjdrive.town.settings import LightTiming
 from mjdrive.town.xml_fields import Element
 
 # More by hand: MJDRIVE_FUZZ_EXAMPLES=2000 pytest ...
-EXAMPLES = int(os.environ.get("MJDRIVE_FUZZ_EXAMPLES", "25"))
+EXAMPLES = int(os.environ.get("MJDRIVE_FUZZ_EXAMPLES", "12"))
 
 WORDS = ["true", "text", "start", "end", "9" * 400, "\u0663", "\u202e", "none", "+", "-"]
 
