@@ -1,6 +1,7 @@
 """Surfaces for the eye only: many faces of one material become one mesh, which costs the physics nothing."""
 
 import functools
+from collections.abc import Iterator
 
 import mujoco
 import numpy as np
@@ -66,8 +67,13 @@ class Shell:
             height: Above the road [m].
             texture_size: Side of a square that the texture of the material fills, if it has one [m].
         """
-        triangles = shapely.get_parts(shapely.constrained_delaunay_triangles(area))
-        if not len(triangles):
+        tidy = shapely.set_precision(area, 10.0**-self._decimals)
+        triangles = [
+            triangle
+            for part in _without_holes(tidy)
+            for triangle in shapely.get_parts(shapely.constrained_delaunay_triangles(part))
+        ]
+        if not triangles:
             return
         corners = [shapely.get_coordinates(shapely.orient_polygons(part))[:3] for part in triangles]
         points, faces = np.unique(
@@ -148,6 +154,20 @@ class Shell:
 
 def _at(points: Float[np.ndarray, "N 2"], height: float) -> Float[np.ndarray, "N 3"]:
     return np.column_stack([points, np.full(len(points), height)])
+
+
+def _without_holes(area: shapely.Geometry) -> Iterator[shapely.Polygon]:
+    """Cut an area through its holes: GEOS cannot triangulate around every hole that touches the outline."""
+    for part in shapely.get_parts(area):
+        if part.geom_type != "Polygon":
+            continue  # what cuts leave of edges
+        if not part.interiors:
+            yield part
+            continue
+        left, bottom, right, top = part.bounds
+        cut = part.interiors[0].centroid.x
+        for half in (shapely.box(left, bottom, cut, top), shapely.box(cut, bottom, right, top)):
+            yield from _without_holes(shapely.intersection(part, half))
 
 
 @functools.cache
