@@ -155,7 +155,10 @@ def _within(what: str, distances: list[float], bar: float) -> Row:
 def main(path: Path, reference: Path | None) -> None:
     """Compare mjdrive's reading of PATH with CARLA's reading of it, or of REFERENCE."""
     ours = read_with_mjdrive(path)
-    theirs = read_with_carla(reference or path)
+    try:
+        theirs = read_with_carla(reference or path)
+    except (RuntimeError, IndexError) as error:
+        raise click.ClickException(f"CARLA cannot read '{reference or path}': {error}") from error
     rows = compare_readings(ours, theirs) if reference is None else compare_towns(ours, theirs)
     table = Table(title=f"{path.name}: mjdrive and CARLA", box=None, header_style="bold")
     for heading in ("", "mjdrive", "CARLA", "difference", ""):

@@ -86,34 +86,30 @@ def read_with_carla(path: Path) -> Reading:
 
     Raises:
         RuntimeError: If CARLA does not accept the map.
+        IndexError: If CARLA does not understand a link, as those of direct junctions.
     """
     carla_map = carla.Map(path.stem, path.read_text())
-    starts: dict[str, Any] = {}
-    followings = set()
-    for start, following in carla_map.get_topology():
-        if carla.LaneType.Driving == start.lane_type == following.lane_type:
-            followings.add((_name(start), _name(following)))
-            starts |= {_name(start): start, _name(following): following}
-    waypoints: dict[str, list[Any]] = defaultdict(list)
+    found: dict[str, list[Any]] = defaultdict(list)
     for waypoint in carla_map.generate_waypoints(SPACING):
-        waypoints[_name(waypoint)].append(waypoint)
-    for name, found in waypoints.items():
-        starts.setdefault(name, found[0])
-    ends = {name: start.next_until_lane_end(SPACING)[-1] for name, start in starts.items()}
-    followings |= {
-        (name, _name(waypoint))
-        for name, end in ends.items()
-        for waypoint in end.next(_SHORT)
-        if waypoint.lane_type == carla.LaneType.Driving and _name(waypoint) != name
-    }
+        found[_name(waypoint)].append(waypoint)
+    lanes = {name: _in_travel(carla_map, waypoints) for name, waypoints in found.items()}
+    pairs = [(first, second) for first, second in carla_map.get_topology()]
+    # What the topology lists, and what a step over the end of each lane meets. Both name other types of lanes too,
+    # and now and then the lane itself.
+    pairs += [(lane[-1], ahead) for lane in lanes.values() for ahead in lane[-1].next(_SHORT)]
+    followings = frozenset(
+        (_name(first), _name(second))
+        for first, second in pairs
+        if {_name(first), _name(second)} <= lanes.keys() and _name(first) != _name(second)
+    )
     across = {
-        name: str(start.get_junction().id) for name, start in starts.items() if start.is_junction
+        name: str(lane[0].get_junction().id) for name, lane in lanes.items() if lane[0].is_junction
     }
     return Reading(
-        lanes={name: _line(starts[name], waypoints[name], ends[name]) for name in starts},
-        followings=frozenset(followings),
-        moves=_moves(frozenset(followings), across),
-        stops=_stops(carla_map, starts, ends, frozenset(followings), across),
+        lanes={name: np.stack([_point(w) for w in lane]) for name, lane in lanes.items()},
+        followings=followings,
+        moves=_moves(followings, across),
+        stops=_stops(carla_map, lanes, followings, across),
         junctions=frozenset(across.values()),
     )
 
@@ -136,14 +132,13 @@ def _moves(
 
 def _stops(
     carla_map: Any,
-    starts: dict[str, Any],
-    ends: dict[str, Any],
+    lanes: dict[str, list[Any]],
     followings: frozenset[tuple[str, str]],
     across: dict[str, str],
 ) -> dict[tuple[str, str], np.ndarray]:
     """Find where approach lanes meet the junction: CARLA names them, or the lanes across that lie behind a light."""
     numbered: dict[tuple[str, int], list[str]] = defaultdict(list)
-    for name in starts:
+    for name in lanes:
         road, _, lane = name.rsplit("/", 2)
         numbered[road, int(lane)].append(name)
     stops = {}
@@ -152,18 +147,38 @@ def _stops(
             for number in range(low, high + 1):
                 for name in numbered[str(landmark.road_id), number]:
                     if name not in across:
-                        stops[landmark.id, name] = _point(ends[name])
+                        stops[landmark.id, name] = _point(lanes[name][-1])
                         continue
                     for approach, entered in followings:
                         if entered == name and approach not in across:
-                            stops[landmark.id, approach] = _point(starts[name])
+                            stops[landmark.id, approach] = _point(lanes[name][0])
     return stops
 
 
-def _line(start: Any, between: list[Any], end: Any) -> np.ndarray:
-    """Join the waypoints of a lane in its direction of travel."""
-    ordered = sorted(between, key=lambda waypoint: waypoint.s, reverse=bool(start.s > end.s))
-    return np.stack([_point(waypoint) for waypoint in (start, *ordered, end)])
+def _in_travel(carla_map: Any, waypoints: list[Any]) -> list[Any]:
+    """Put the waypoints of a lane in the order of travel, with one at each end."""
+    ordered = sorted(waypoints, key=lambda waypoint: waypoint.s)
+    ordered = [
+        _farthest(carla_map, ordered[0], -1.0),
+        *ordered,
+        _farthest(carla_map, ordered[-1], 1.0),
+    ]
+    along = _point(ordered[2 if len(ordered) > 3 else -1]) - _point(ordered[0])
+    yaw = -np.deg2rad(ordered[0].transform.rotation.yaw)
+    is_along = along @ np.array([np.cos(yaw), np.sin(yaw)]) > 0.0
+    return ordered if is_along else ordered[::-1]
+
+
+def _farthest(carla_map: Any, waypoint: Any, side: float) -> Any:
+    """Find the last waypoint of a lane along s (side 1) or against it (side -1), by halving."""
+    last, step = waypoint, 2.0 * SPACING
+    while step > 1e-7:
+        s = max(last.s + side * step, 0.0)
+        beyond = carla_map.get_waypoint_xodr(waypoint.road_id, waypoint.lane_id, s)
+        if beyond is not None and beyond.section_id == waypoint.section_id:
+            last = beyond
+        step /= 2.0
+    return last
 
 
 def _point(waypoint: Any) -> np.ndarray:

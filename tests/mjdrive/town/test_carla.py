@@ -6,16 +6,19 @@ CARLA's maps are compared where MJDRIVE_REFERENCE_MAPS names a folder with Town0
 import os
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 import pytest
 
-from mjdrive.town import library, opendrive
+from mjdrive.town import library, opendrive, opendrive_writer
 from mjdrive.town.network import build_town
+from mjdrive.town.road_map import RoadMap
+from mjdrive.town.road_shapes import Cubic, Spiral
 from mjdrive.town.settings import LightTiming
 
 pytest.importorskip("carla", reason="CARLA's client is installed on Linux on x86-64 only")
@@ -54,6 +57,46 @@ def test_carla_reads_our_maps_as_we_do(script: ModuleType, name: str) -> None:
     path = library.folder_of(name) / library.MAP_FILE
     ours, theirs = script.read_with_mjdrive(path), script.read_with_carla(path)
     assert theirs.lanes
+    assert theirs.followings
+    assert _broken(script.compare_readings(ours, theirs)) == []
+
+
+def _left_hand(maker: Any) -> RoadMap:
+    """A bend and a street behind it, with more lanes for one direction, where traffic keeps to the left."""
+    lanes = maker.section(2, 1, -1)
+    bend = maker.ring("1", 30.0, (0.0, 1.0), links=("", "2:start"), drives_on_left=True)
+    (x, y), turned = 30.0 * np.array([np.cos(1.0), np.sin(1.0)]), 1.0 + np.pi / 2
+    far = (x + 40.0 * np.cos(turned), y + 40.0 * np.sin(turned))
+    street = maker.road("2", ((x, y), far), lanes, links=("1:end", ""), drives_on_left=True)
+    return maker.map([replace(bend, sections=(lanes,)), street])
+
+
+def _lane_drop(maker: Any) -> RoadMap:
+    """A street on which a lane appears and another tapers away, along a clothoid, with the lanes shifted."""
+    grows = maker.lane(-2, predecessor=None, widths=(Cubic(0.0, 0.0, 0.0, 0.01, -0.0003),))
+    ends = maker.lane(2, predecessor=None, widths=(Cubic(0.0, 0.0, 0.1),))
+    sections = (
+        maker.section(1, -1),
+        maker.section(ends, 1, -1, grows, s=20.0),
+        maker.section(2, 1, -1, -2, s=50.0),
+    )
+    road = maker.road("1", ((0, 0), (90, 0)), *sections, lane_offsets=(Cubic(0.0, 1.0, 0.02),))
+    bend = replace(road.pieces[0], shape=Spiral(0.0, 0.03))
+    return maker.map([replace(road, pieces=(bend,))])
+
+
+@pytest.mark.parametrize(("draw", "num_lanes"), [(_left_hand, 6), (_lane_drop, 10)])
+def test_carla_reads_small_maps_as_we_do(
+    script: ModuleType,
+    maker: Any,
+    tmp_path: Path,
+    draw: Callable[[Any], RoadMap],
+    num_lanes: int,
+) -> None:
+    path = tmp_path / "map.xodr"
+    path.write_bytes(opendrive_writer.write(draw(maker)))
+    ours, theirs = script.read_with_mjdrive(path), script.read_with_carla(path)
+    assert len(theirs.lanes) == num_lanes
     assert theirs.followings
     assert _broken(script.compare_readings(ours, theirs)) == []
 
