@@ -55,3 +55,12 @@ def test_free_drive_through_town02_is_clean_and_gets_far(
     summary = summarise(drive_expert(simulation, num_steps=3000, seed=0), town02)
     assert (summary.red_lights, summary.collisions, summary.off_road_s) == (0, 0, 0.0)
     assert summary.distance_m > 900
+
+
+def test_free_drive_through_town03_is_clean_on_its_roundabout_too() -> None:
+    town = library.load("town03")
+    episode = drive_expert(Simulation(town), num_steps=700, seed=1)
+    assert episode.infractions == ()
+    ring = [lane.centerline for lane in town.lanes.values() if lane.id.startswith("600")]
+    gaps = np.hypot(*(np.concatenate(ring)[:, None] - episode.vehicle[None, :, :2]).T)
+    assert gaps.min() < 0.5, "expected the drive to lead round the ring"

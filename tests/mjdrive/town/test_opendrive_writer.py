@@ -1,5 +1,7 @@
 from dataclasses import replace
+from pathlib import Path
 
+import numpy as np
 from lxml import etree
 
 from mjdrive.town import opendrive, opendrive_writer
@@ -31,3 +33,21 @@ def test_what_the_street_builder_leaves_out_is_written_too(road_map: RoadMap) ->
     )
     changed = replace(road_map, roads={**road_map.roads, "1": road})
     assert opendrive.parse(opendrive_writer.write(changed), source="ladder") == changed
+
+
+def test_a_map_with_a_bit_of_everything_is_read_back() -> None:
+    rich = opendrive.read(Path(__file__).with_name("rich.xodr"))
+    again = opendrive.parse(opendrive_writer.write(rich), source="again")
+    for name, road in rich.roads.items():
+        for thing, found in zip(road.objects, again.roads[name].objects, strict=True):
+            np.testing.assert_allclose(found.outline, thing.outline, atol=1e-8)
+    assert _without_outlines(again) == _without_outlines(rich)
+
+
+def _without_outlines(road_map: RoadMap) -> RoadMap:
+    """Corners of objects go through the frame of the object and back: they lose their last digits."""
+    roads = {
+        name: replace(road, objects=tuple(replace(thing, outline=()) for thing in road.objects))
+        for name, road in road_map.roads.items()
+    }
+    return replace(road_map, roads=roads)
