@@ -18,7 +18,34 @@ GROUND_LANE_TYPES = frozenset(
 """OpenDRIVE lane types that are only ground beside the road, where nobody drives or walks."""
 
 OBJECT_TYPES = frozenset(
-    ["barrier", "bike", "building", "bus", "car", "crosswalk", "gantry", "motorbike", "obstacle", "parkingSpace", "patch", "pedestrian", "pole", "railing", "roadMark", "roadSurface", "soundBarrier", "streetLamp", "trafficIsland", "trailer", "train", "tram", "tree", "van", "vegetation", "wind"]
+    [
+        "barrier",
+        "bike",
+        "building",
+        "bus",
+        "car",
+        "crosswalk",
+        "gantry",
+        "motorbike",
+        "obstacle",
+        "parkingSpace",
+        "patch",
+        "pedestrian",
+        "pole",
+        "railing",
+        "roadMark",
+        "roadSurface",
+        "soundBarrier",
+        "streetLamp",
+        "trafficIsland",
+        "trailer",
+        "train",
+        "tram",
+        "tree",
+        "van",
+        "vegetation",
+        "wind",
+    ]
 )
 """OpenDRIVE object types."""
 

@@ -35,9 +35,46 @@ def test_a_round_object_has_its_radius(objects: Objects) -> None:
     np.testing.assert_allclose(np.hypot(*(corners - [-50.0, 9.0]).T), 2.0)
 
 
-def test_length_runs_along_the_road_and_width_across(objects: Objects) -> None:
-    bounds = shapely.Polygon(objects["o4"].outline).bounds
-    np.testing.assert_allclose(bounds, (-62.0, -8.15, -58.0, -7.85))
+def test_an_object_repeats_along_its_road(objects: Objects) -> None:
+    rails = [thing for name, thing in objects.items() if name.startswith("o4")]
+    assert [thing.id for thing in rails] == [f"o4/0/{number}" for number in range(5)]
+    for number, thing in enumerate(rails):
+        # Length along the road, width across.
+        x = -60.0 + 5.0 * number
+        bounds = shapely.Polygon(thing.outline).bounds
+        np.testing.assert_allclose(bounds, (x - 2.0, -8.15, x + 2.0, -7.85), atol=1e-9)
+
+
+def test_an_object_without_gaps_is_one_strip_along_the_bend(rich_bytes: bytes) -> None:
+    rail = (
+        b'<objects><object id="r" type="barrier" s="0" t="0" width="0.5" height="1">'
+        b'<repeat s="0" length="99" distance="0" tStart="2" tEnd="2" widthStart="0.5" widthEnd="0.5"'
+        b' heightStart="1" heightEnd="2"/></object></objects>'
+    )
+    # Road 11 is a quarter circle of 10 m to the right: 2 m to its left the radius is 12 m.
+    head, tail = rich_bytes.split(b'<road id="11"')
+    data = head + b'<road id="11"' + tail.replace(b"</lanes>", b"</lanes>" + rail, 1)
+    (thing,) = opendrive.parse(data, source="bend").roads["11"].objects
+    assert thing.height == 2.0
+    assert shapely.Polygon(thing.outline).area == pytest.approx(
+        np.pi / 4 * (12.25**2 - 11.75**2), rel=2e-3
+    )
+
+
+def test_sizes_change_from_copy_to_copy(rich_bytes: bytes) -> None:
+    changed = rich_bytes.replace(
+        b'tStart="-8" tEnd="-8"', b'tStart="-8" tEnd="-12" lengthStart="1" lengthEnd="3"'
+    )
+    road = opendrive.parse(changed, source="map").roads["1"]
+    last = next(thing for thing in road.objects if thing.id == "o4/0/4")
+    assert (last.s, last.t) == (20.0, -12.0)
+    west, _, east, _ = shapely.Polygon(last.outline).bounds
+    assert east - west == pytest.approx(3.0)
+
+
+def test_too_many_copies_are_refused(rich_bytes: bytes) -> None:
+    with pytest.raises(TownFormatError, match=r"<repeat> makes \d+ copies; expected at most"):
+        opendrive.parse(rich_bytes.replace(b'distance="5"', b'distance="1e-9"'), source="map")
 
 
 def test_outlines_go_round_counter_clockwise(objects: Objects) -> None:

@@ -16,7 +16,7 @@ def test_what_was_read_is_counted(rich_bytes: bytes) -> None:
     assert (report.source, report.version) == ("map", "1.8")
     assert (report.roads, report.junctions) == (12, 3)
     assert report.signals == {"1000001": 3, "206": 1, "274": 1}
-    assert report.objects == {"barrier": 1, "building": 1, "crosswalk": 1, "pole": 1, "tree": 1}
+    assert report.objects == {"barrier": 5, "building": 1, "crosswalk": 1, "pole": 1, "tree": 1}
     # Lanes count once in each section: sidewalk and left lane of road 1 go through three.
     assert report.lanes["sidewalk"] == 3
     assert report.lanes["tram"] == 1
@@ -31,7 +31,7 @@ def test_what_was_read_is_counted(rich_bytes: bytes) -> None:
         ("road/surface", 1),
         ("road/type", 1),
         ("road/objects/tunnel", 1),
-        ("road/objects/object/repeat", 1),
+        ("road/objects/object/outlines/outline", 1),
         ("road/signals/signal/positionInertial", 1),
         ("road/lanes/laneSection/left/lane/speed", 1),
         ("junction/priority", 1),
