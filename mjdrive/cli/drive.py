@@ -81,7 +81,10 @@ def drive(
             "distance": f"{summary.distance_m:,.1f} m in {summary.duration_s:,.1f} s",
             "red lights": summary.red_lights,
             "collisions": summary.collisions,
-            "off road": f"{summary.off_road_s:.1f} s",
+            "off road": f"{summary.road_departures} times, {summary.off_road_s:.1f} s",
+            "wrong way": summary.wrong_ways,
+            "stuck": f"{summary.standstills} times",
+            "off the lane's middle": _offset(summary.lane_keeping.offset_rms_m),
             "score": f"{summary.score:,.1f}",
             "path": folder / "trajectory.png",
             "actions": folder / "actions.png",
@@ -92,3 +95,8 @@ def drive(
         if driver.name != "pid"
         else f"mjdrive drive --town {town.name} --seed {seed + 1}",
     )
+
+
+def _offset(rms: float | None) -> str:
+    """Say how well the lane was kept; nothing is known of a car that never moved along one."""
+    return "not known" if rms is None else f"{rms:.2f} m RMS outside junctions"
