@@ -96,17 +96,7 @@ def check(town: Town, road_map: RoadMap | None = None) -> tuple[Finding, ...]:
 def _lane_findings(town: Town, lane: Lane) -> Iterator[Finding]:
     yield from _joints(town, lane)
     if not lane.successors:
-        if lane.left is None and lane.right is None:
-            yield Finding(
-                FindingKind.DEAD_END, Severity.ERROR, lane.id, "The lane leads to no other."
-            )
-        else:
-            yield Finding(
-                FindingKind.DEAD_END,
-                Severity.WARNING,
-                lane.id,
-                "The lane ends beside others; routes that would have to change lanes avoid it.",
-            )
+        yield _dead_end(town, lane)
     widths = np.array([lane.width]) if lane.widths is None else lane.widths
     if widths.min() < NARROWEST_LANE:
         always = bool(widths.max() < NARROWEST_LANE)
@@ -125,6 +115,24 @@ def _lane_findings(town: Town, lane: Lane) -> Iterator[Finding]:
             lane.id,
             f"Its centre bends with a radius of {radius:.1f} m; the car follows {TIGHTEST_TURN} m and cuts this bend.",
         )
+
+
+def _dead_end(town: Town, lane: Lane) -> Finding:
+    if any(town.lanes[name].successors for name in _beside(town, lane)):
+        text = (
+            "The lane ends and others beside it go on; routes, which never change lanes, avoid it."
+        )
+        return Finding(FindingKind.DEAD_END, Severity.WARNING, lane.id, text)
+    return Finding(FindingKind.DEAD_END, Severity.ERROR, lane.id, "The lane leads to no other.")
+
+
+def _beside(town: Town, lane: Lane) -> Iterator[str]:
+    """Name all lanes beside a lane in the same direction."""
+    for side in ("left", "right"):
+        name = getattr(lane, side)
+        while name is not None:
+            yield name
+            name = getattr(town.lanes[name], side)
 
 
 def _joints(town: Town, lane: Lane) -> Iterator[Finding]:
@@ -165,7 +173,9 @@ def _unreached(town: Town) -> list[Finding]:
     return [
         Finding(
             FindingKind.UNREACHED,
-            Severity.NOTE if lane.left or lane.right else Severity.WARNING,
+            Severity.NOTE
+            if any(beside in reached for beside in _beside(town, lane))
+            else Severity.WARNING,
             name,
             "No lane leads to it: cars can only start there.",
         )

@@ -71,13 +71,22 @@ def test_both_ends_of_a_street_that_leads_nowhere_are_found(maker: Any) -> None:
     assert found[0].breaks_a_drive
 
 
-def test_a_lane_that_ends_beside_another_is_no_error(maker: Any) -> None:
-    sections = (maker.section(-1, maker.lane(-2, successor=None)), maker.section(-1, s=30.0))
+def test_a_lane_that_ends_beside_one_that_goes_on_is_no_error(maker: Any) -> None:
+    first = [maker.lane(-2, successor=None), maker.lane(-3, successor=None)]
+    sections = (maker.section(-1, *first), maker.section(-1, -2, s=30.0))
     road_map = maker.map([maker.road("1", ((0, 0), (50, 0)), *sections)])
-    severities = {
-        finding.where: finding.severity for finding in _found(road_map, FindingKind.DEAD_END)
+    assert {f.where: f.severity for f in _found(road_map, FindingKind.DEAD_END)} == {
+        "1/0/-2": Severity.WARNING,
+        "1/0/-3": Severity.WARNING,
+        "1/1/-1": Severity.ERROR,
+        "1/1/-2": Severity.ERROR,
     }
-    assert severities == {"1/0/-2": Severity.WARNING, "1/1/-1": Severity.ERROR}
+    assert {f.where: f.severity for f in _found(road_map, FindingKind.UNREACHED)} == {
+        "1/0/-1": Severity.WARNING,
+        "1/0/-2": Severity.WARNING,
+        "1/0/-3": Severity.WARNING,
+        "1/1/-2": Severity.NOTE,
+    }
 
 
 def test_lanes_too_narrow_for_the_car_are_found(maker: Any) -> None:
