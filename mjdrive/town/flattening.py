@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from mjdrive.town.lane_geometry import evaluate
+from mjdrive.town.cross_section import evaluate
 from mjdrive.town.road_shapes import Cubic
 from mjdrive.town.xml_fields import Element, XmlFields
 

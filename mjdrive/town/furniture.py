@@ -9,7 +9,8 @@ from jaxtyping import Float
 
 from mjdrive.datatypes import Marking, Sign, StaticObject
 from mjdrive.geometry import offset_polyline, project, stations, wrap_angle
-from mjdrive.town.lane_geometry import lane_edge, lane_edges, section_bounds
+from mjdrive.town.cross_section import lane_edges, section_bounds
+from mjdrive.town.lane_geometry import lane_edge
 from mjdrive.town.lights import LIGHT_TYPES
 from mjdrive.town.links import SHORTEST_SECTION
 from mjdrive.town.reference_line import reference_line

@@ -1,27 +1,15 @@
 """Where the lanes of an OpenDRIVE road run."""
 
-from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
 from jaxtyping import Float
 
 from mjdrive.errors import TownFormatError
+from mjdrive.town.cross_section import lane_edges, section_bounds
 from mjdrive.town.reference_line import curvature_of, reference_line
-from mjdrive.town.road_map import LaneRecord, Road
-from mjdrive.town.road_shapes import Cubic, Line
-
-__all__ = [
-    "CHORD_ERROR",
-    "LARGEST_GAP",
-    "curvature_of",
-    "evaluate",
-    "lane_centre",
-    "lane_edge",
-    "lane_edges",
-    "reference_line",
-    "section_bounds",
-]
+from mjdrive.town.road_map import Road
+from mjdrive.town.road_shapes import Line
 
 LARGEST_GAP = 0.5
 """Largest distance between two points of a line along a lane [m]."""
@@ -35,37 +23,7 @@ _SHORTEST_STEP = 0.001
 _MOST_POINTS = 300_000
 """Largest number of points of one line: more than 100 km of road, or a map that oscillates."""
 
-_NOTHING = Cubic(0.0, 0.0)
-
 _QUARTERS = np.array([[0.25], [0.5], [0.75]])
-
-
-def evaluate(cubics: Sequence[Cubic], s: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
-    """Evaluate cubics that follow each other.
-
-    Args:
-        cubics: In order of their starts; 0 everywhere if there are none.
-        s: Where, in the frame of the starts [m].
-
-    Returns:
-        Their values [m].
-    """
-    if len(cubics) < 2:
-        cubic = cubics[0] if cubics else _NOTHING
-        ds, a, b, c, d = s - cubic.start, cubic.a, cubic.b, cubic.c, cubic.d
-    else:
-        table = np.array([(cubic.start, cubic.a, cubic.b, cubic.c, cubic.d) for cubic in cubics])
-        index = np.searchsorted(table[:, 0], s + 1e-9, side="right") - 1
-        starts, a, b, c, d = table[np.maximum(index, 0)].T
-        ds = s - starts
-    value: Float[np.ndarray, " N"] = a + ds * (b + ds * (c + ds * d))
-    return value
-
-
-def section_bounds(road: Road, section_index: int) -> tuple[float, float]:
-    """Tell where a lane section starts and ends along its road [m]."""
-    following = road.sections[section_index + 1 : section_index + 2]
-    return road.sections[section_index].s, following[0].s if following else road.length
 
 
 def lane_centre(
@@ -103,40 +61,6 @@ def lane_edge(road: Road, section_index: int, lane_id: int) -> Float[np.ndarray,
         TownFormatError: If the edge bends too sharply to be sampled.
     """
     return _line_beside(road, section_index, lane_id, 1.0)[:, :2]
-
-
-def lane_edges(
-    road: Road, section_index: int, lane_id: int, s: Float[np.ndarray, " N"]
-) -> tuple[Float[np.ndarray, " N"], Float[np.ndarray, " N"]]:
-    """Tell where the edges of a lane lie across its road; a negative width counts as 0.
-
-    Args:
-        road: Road of the lane.
-        section_index: Index of its lane section.
-        lane_id: Signed lane number; both edges of lane 0 are the same.
-        s: Where along the road, within the section [m].
-
-    Returns:
-        t of the edge towards lane 0 and t of the other edge, positive to the left [m].
-    """
-    section = road.sections[section_index]
-    inner = outer = evaluate(road.lane_offsets, s)
-    side = 1 if lane_id > 0 else -1
-    for number in range(side, lane_id + side, side) if lane_id else ():
-        lane = section.lane(number)
-        assert lane is not None, f"road '{road.id}' has no lane {number} in section {section_index}"
-        inner, outer = outer, _outer_edge(lane, side, outer, s - section.s)
-    return inner, outer
-
-
-def _outer_edge(
-    lane: LaneRecord, side: int, inner: Float[np.ndarray, " N"], ds: Float[np.ndarray, " N"]
-) -> Float[np.ndarray, " N"]:
-    # Where a lane has both, widths count (OpenDRIVE 1.8, 11.6).
-    if lane.widths or not lane.borders:
-        return inner + side * np.maximum(evaluate(lane.widths, ds), 0.0)
-    outer = evaluate(lane.borders, ds)
-    return np.maximum(outer, inner) if side > 0 else np.minimum(outer, inner)
 
 
 def _line_beside(

@@ -4,7 +4,7 @@ from collections import defaultdict
 from typing import NamedTuple
 
 from mjdrive.errors import TownFormatError
-from mjdrive.town.lane_geometry import section_bounds
+from mjdrive.town.cross_section import section_bounds
 from mjdrive.town.road_map import Connection, LaneRecord, Road, RoadLink, RoadMap
 
 DRIVEN_LANE_TYPES = frozenset(

@@ -9,14 +9,12 @@ from hypothesis import strategies as st
 from mjdrive.errors import TownFormatError
 from mjdrive.geometry import stations
 from mjdrive.town import lane_geometry
+from mjdrive.town.cross_section import evaluate, lane_edges, section_bounds
 from mjdrive.town.lane_geometry import (
     CHORD_ERROR,
     LARGEST_GAP,
-    evaluate,
     lane_centre,
     lane_edge,
-    lane_edges,
-    section_bounds,
 )
 from mjdrive.town.reference_line import reference_line
 from mjdrive.town.road_map import LaneRecord, LaneSection, Road

@@ -5,7 +5,7 @@ import pytest
 
 from mjdrive.errors import TownFormatError
 from mjdrive.town import opendrive
-from mjdrive.town.lane_geometry import lane_edges
+from mjdrive.town.cross_section import lane_edges
 from mjdrive.town.road_map import Road, RoadMap
 from mjdrive.town.road_shapes import Cubic, RoadMark
 
