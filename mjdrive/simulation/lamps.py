@@ -1,13 +1,13 @@
 """Light poles, and lamps that show what the lights say."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from itertools import pairwise
 
 import mujoco
 import numpy as np
 
 from mjdrive.datatypes import Signal, Town, TrafficLight
-from mjdrive.simulation.blocks import DECIMALS, SHOWN_GROUP, add_post, upright
+from mjdrive.simulation.blocks import DECIMALS, SHOWN_GROUP, UNSEEN_GROUP, add_post, upright
 from mjdrive.simulation.meshes import Shell, show_mesh
 
 POLE_RADIUS = 0.07  # [m]
@@ -25,6 +25,8 @@ DARK = np.array([[0.04, 0.13, 0.07, 1.0], [0.15, 0.12, 0.04, 1.0], [0.15, 0.05, 
 def add_lights(spec: mujoco.MjSpec, lights: Iterable[TrafficLight], *, height: float) -> None:
     """Stand the poles of lights, each with a head of three lamps that faces its approach.
 
+    Lights of one pole share it, and lights of one signal share their head.
+
     Args:
         spec: Scene with the materials of `palette`.
         lights: Where they stand and whom they face.
@@ -34,7 +36,8 @@ def add_lights(spec: mujoco.MjSpec, lights: Iterable[TrafficLight], *, height: f
     if lights:
         head_shell().mesh(spec, HEAD)
     centre = height - HOUSING[2]
-    for light in lights:
+    poles, heads = _first_of(lights, _place), _first_of(lights, _facing)
+    for light in poles.values():
         x, y = light.pole.tolist()
         add_post(
             spec,
@@ -45,16 +48,18 @@ def add_lights(spec: mujoco.MjSpec, lights: Iterable[TrafficLight], *, height: f
             height=height,
             material="metal",
         )
+    for light in heads.values():
         show_mesh(
             spec,
             f"head_{light.id}",
             mesh=HEAD,
             material="metal",
-            position=np.array([x, y, centre]),
+            position=np.array([*light.pole, centre]),
             quaternion=upright(light.yaw),
         )
     for light in lights:  # apart from the poles, so that the numbers of all lamps are consecutive
-        _add_lamps(spec, light, centre)
+        is_seen = heads[_facing(light)] is light
+        _add_lamps(spec, light, centre, group=SHOWN_GROUP if is_seen else UNSEEN_GROUP)
 
 
 def set_lamps(model: mujoco.MjModel, town: Town, signals: Mapping[str, Signal]) -> None:
@@ -97,11 +102,26 @@ def head_shell() -> Shell:
     return shell
 
 
+def _place(light: TrafficLight) -> tuple[float, ...]:
+    return tuple(light.pole.round(1).tolist())
+
+
+def _facing(light: TrafficLight) -> tuple[float, ...]:
+    return (*_place(light), round(light.yaw, 1))
+
+
+def _first_of(
+    lights: list[TrafficLight], key: Callable[[TrafficLight], tuple[float, ...]]
+) -> dict[tuple[float, ...], TrafficLight]:
+    """Choose the light that builds what several lights share; a signal over three lanes is three lights."""
+    return {key(light): light for light in reversed(lights)}
+
+
 def _lamp(light_id: str, signal: Signal) -> str:
     return f"lamp_{light_id}_{signal.name.lower()}"
 
 
-def _add_lamps(spec: mujoco.MjSpec, light: TrafficLight, centre: float) -> None:
+def _add_lamps(spec: mujoco.MjSpec, light: TrafficLight, centre: float, *, group: int) -> None:
     towards_driver = -np.array([np.cos(light.yaw), np.sin(light.yaw)])
     face = light.pole + (POLE_RADIUS + 2 * HOUSING[0] - 0.4 * LAMP_RADIUS) * towards_driver
     for signal in Signal:
@@ -113,7 +133,7 @@ def _add_lamps(spec: mujoco.MjSpec, light: TrafficLight, centre: float) -> None:
             pos=[*face.round(DECIMALS), round(height, DECIMALS)],
             contype=0,
             conaffinity=0,
-            group=SHOWN_GROUP,
+            group=group,
             material="lamp",
             rgba=DARK[signal],
         )

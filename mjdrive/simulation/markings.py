@@ -1,7 +1,6 @@
 """Paint on the road: lane lines, stop lines, crosswalks and parking spaces."""
 
-from collections.abc import Iterator
-from itertools import pairwise
+from collections.abc import Iterator, Sequence
 
 import mujoco
 import numpy as np
@@ -17,6 +16,8 @@ from mjdrive.town.scenery import ground_of
 PAINT_HEIGHT = (
     0.01  # [m]; enough to be drawn above the asphalt, and invisible from where cameras are
 )
+BETWEEN_COLORS = 0.001  # [m]
+ABOVE_LINES = PAINT_HEIGHT + 0.006  # height of stop lines and crosswalks [m]
 NARROWEST_LINE = 0.12  # thinner paint is drawn this wide, to be seen [m]
 SMOOTHING = 0.005  # lines keep corners larger than this [m]
 CENTRE_LINE = Marking(points=np.zeros((2, 2)), width=0.15, color="white", dash=3.0, gap=3.0)
@@ -34,26 +35,41 @@ def add_markings(spec: mujoco.MjSpec, town: Town) -> None:
         spec: Scene with the materials of `palette`.
         town: Road network.
     """
-    shells: dict[str, Shell] = {}
+    ribbons: dict[str, list[shapely.Geometry]] = {}
     for marking in town.markings or centre_lines(town):
-        shell = shells.setdefault(marking.color, Shell())
-        for piece in painted(marking):
-            _add_line(shell, piece, max(marking.width, NARROWEST_LINE))
-    for color, shell in shells.items():
-        shell.show(spec, f"marking_{color}", material=f"{color}_paint")
-    bars, areas = Shell(), Shell()
-    for bar in stop_bars(town):
-        bars.polygon(np.column_stack([bar, np.full(4, PAINT_HEIGHT)]))
-    bars.show(spec, "stop_bars", material="white_paint")
+        half = 0.5 * max(marking.width, NARROWEST_LINE)
+        lines = [shapely.LineString(piece) for piece in painted(marking)]
+        paint = shapely.buffer(lines, half, cap_style="flat", join_style="mitre")
+        ribbons.setdefault(marking.color, []).extend(paint)
+    for layer, (color, paint) in enumerate(sorted(ribbons.items())):
+        height = PAINT_HEIGHT + layer * BETWEEN_COLORS
+        _show(spec, f"marking_{color}", paint, material=f"{color}_paint", height=height)
+    bars = [shapely.Polygon(bar) for bar in stop_bars(town)]
+    _show(spec, "stop_bars", bars, material="white_paint", height=ABOVE_LINES)
+    areas = []
     for thing in town.objects:
         outline = ground_of([thing.outline])
         if outline.is_empty:
             continue
         if thing.type == "crosswalk":
-            areas.area(zebra(outline, town), height=1.2 * PAINT_HEIGHT)
+            areas.append(zebra(outline, town))
         elif thing.type == "parkingSpace":
-            areas.area(outline - shapely.buffer(outline, -OUTLINE_WIDTH), height=PAINT_HEIGHT)
-    areas.show(spec, "crosswalks", material="white_paint")
+            areas.append(outline - shapely.buffer(outline, -OUTLINE_WIDTH))
+    _show(spec, "crosswalks", areas, material="white_paint", height=ABOVE_LINES)
+
+
+def _show(
+    spec: mujoco.MjSpec,
+    name: str,
+    paint: Sequence[shapely.Geometry],
+    *,
+    material: str,
+    height: float,
+) -> None:
+    """Show paint joined: where a map paints twice, the sun would shine twice."""
+    shell = Shell()
+    shell.area(shapely.union_all(paint), height=height)
+    shell.show(spec, name, material=material)
 
 
 def centre_lines(town: Town) -> list[Marking]:
@@ -162,20 +178,6 @@ def zebra(area: shapely.Geometry, town: Town) -> shapely.Geometry:
         for offset in np.arange(-reach, reach, 2.0 * ZEBRA_STRIPE)
     ]
     return shapely.intersection(shapely.union_all(shapely.polygons(stripes)), area)
-
-
-def _add_line(shell: Shell, points: Float[np.ndarray, "_ 2"], width: float) -> None:
-    """A ribbon whose pieces share their corners, so that bends have no gaps."""
-    left, right = offset_polyline(points, 0.5 * width), offset_polyline(points, -0.5 * width)
-    vertices = np.column_stack(
-        [np.concatenate([left, right]), np.full(2 * len(points), PAINT_HEIGHT)]
-    )
-    num_points = len(points)
-    faces = [
-        [[a, num_points + a, b], [num_points + a, num_points + b, b]]
-        for a, b in pairwise(range(num_points))
-    ]
-    shell.add(vertices, np.array(faces).reshape(-1, 3))
 
 
 def _ribbon(points: Float[np.ndarray, "2 2"], width: float) -> Float[np.ndarray, "4 2"]:

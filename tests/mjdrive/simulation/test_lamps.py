@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import mujoco
 import numpy as np
 import pytest
@@ -64,3 +66,22 @@ def test_town_without_lights_has_nothing_to_set(model, town):
     before = model.geom_rgba.copy()
     set_lamps(model, dark_town, {})
     assert np.array_equal(model.geom_rgba, before)
+
+
+def test_lights_of_one_signal_share_pole_and_head_and_are_seen_once(town):
+    lights = [light("a", 10.0), light("a2", 10.0), light("b", 20.0)]
+    spec = car_on_road(timestep=0.005)
+    add_materials(spec)
+    add_lights(spec, lights, height=4.5)
+    model = spec.compile()
+    names = {model.geom(index).name for index in range(model.ngeom)}
+    assert {"pole_a", "pole_b", "head_a", "head_b"} <= names
+    assert not {"pole_a2", "head_a2"} & names
+    assert model.geom("lamp_a_red").group == 1
+    assert model.geom("lamp_a2_red").group == 3
+    set_lamps(
+        model,
+        replace(town, lights={each.id: each for each in lights}),
+        {"a": Signal.RED, "a2": Signal.RED, "b": Signal.GREEN},
+    )
+    assert model.geom("lamp_a2_red").rgba == pytest.approx(LIT[Signal.RED], abs=1e-6)

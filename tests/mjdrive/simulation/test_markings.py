@@ -90,6 +90,14 @@ def test_paint_of_the_map_has_its_colour_and_covers_its_length_times_width(stree
     assert painted_area(model, "marking_yellow") == pytest.approx(50.0 * 0.2, abs=0.05)
 
 
+def test_paint_that_a_map_gives_twice_is_drawn_once(street):
+    line = Marking(np.array([[0.0, 1.0], [50.0, 1.0]]), 0.2)
+    once, twice = (paint(replace(street, markings=(line,) * count)) for count in (1, 2))
+    assert painted_area(twice, "marking_white") == pytest.approx(
+        painted_area(once, "marking_white")
+    )
+
+
 def painted_area(model: mujoco.MjModel, name: str) -> float:
     mesh = model.mesh(name)
     points = model.mesh_vert[mesh.vertadr[0] :][: mesh.vertnum[0]]
