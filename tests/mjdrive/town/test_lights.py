@@ -139,21 +139,6 @@ def test_a_signal_may_stand_on_another_road_than_the_one_it_stops(crossing: Road
     np.testing.assert_allclose(town.lights["far side"].pole, [-22.0, -9.0], atol=1e-9)
 
 
-def test_a_signal_far_before_the_junction_stops_no_lane_there(maker: Any) -> None:
-    into = maker.road(
-        "1",
-        ((-200, 0), (0, 0)),
-        maker.section(-1),
-        links=("", "junction:J"),
-        signals=(_signal("crossing", (-1, -1), s=90.0), _signal("light", (-1, -1), s=195.0)),
-    )
-    across = maker.road(
-        "2", ((0, 0), (20, 0)), maker.section(-1), links=("1:end", ""), junction="J"
-    )
-    road_map = maker.map([into, across], [maker.junction("J", ("1", "2", "start", (-1, -1)))])
-    assert set(_build(road_map).lights) == {"light"}
-
-
 def test_a_light_stops_the_lane_at_the_end_of_its_road(maker: Any) -> None:
     """The section that the signal stands in need not be the last one."""
     sections = (maker.section(-1), maker.section(-1, s=49.0))
