@@ -8,7 +8,7 @@ import typing
 
 import pytest
 
-import mjdrive.config
+import mjdrive.config.settings
 import mjdrive.datatypes
 import mjdrive.datatypes.driving
 import mjdrive.datatypes.town
@@ -37,7 +37,12 @@ UNITLESS = {
 
 
 def numeric_dataclasses() -> list[type]:
-    modules = (mjdrive.datatypes.town, mjdrive.datatypes.driving, mjdrive.config, models.config)
+    modules = (
+        mjdrive.datatypes.town,
+        mjdrive.datatypes.driving,
+        mjdrive.config.settings,
+        models.config,
+    )
     return [
         kind
         for module in modules

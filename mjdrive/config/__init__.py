@@ -1,0 +1,27 @@
+"""Frozen settings, and how they are written to and read from JSON."""
+
+from mjdrive.config.json_files import from_dict, read_json, require, to_json, write_json
+from mjdrive.config.settings import (
+    BevConfig,
+    CollectConfig,
+    DisturbanceConfig,
+    ExtraLayer,
+    PidConfig,
+    RulesConfig,
+    SimulationConfig,
+)
+
+__all__ = [
+    "BevConfig",
+    "CollectConfig",
+    "DisturbanceConfig",
+    "ExtraLayer",
+    "PidConfig",
+    "RulesConfig",
+    "SimulationConfig",
+    "from_dict",
+    "read_json",
+    "require",
+    "to_json",
+    "write_json",
+]
