@@ -6,6 +6,7 @@ Needs atheris (`pip install atheris`). What breaks is left in the folder as cras
 """
 
 import argparse
+import copy
 import random
 import sys
 import tempfile
@@ -91,7 +92,7 @@ def mutate_tree(root: etree._Element, chooser: random.Random) -> None:
     elif element is not root and kind < 0.85:
         element.getparent().remove(element)
     elif element is not root:
-        copied = etree.fromstring(etree.tostring(element))
+        copied = copy.deepcopy(element)
         if kind < 0.95:
             element.addnext(copied)
         else:

@@ -1,6 +1,7 @@
 """Maps with mistakes become a town or a named error: no other exception, no hang."""
 
 import contextlib
+import copy
 import os
 
 import pytest
@@ -60,7 +61,7 @@ def mutations(draw: st.DrawFn, root: Element) -> None:
     elif kind == "rename":
         element.tag = other.tag
     elif element is not root:
-        copied = etree.fromstring(etree.tostring(element))
+        copied = copy.deepcopy(element)
         if kind in ("drop", "move"):
             element.getparent().remove(element)
         if kind == "copy":
