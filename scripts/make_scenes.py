@@ -30,7 +30,7 @@ def main() -> None:
     )
     parser.add_argument("--pictures", action="store_true", help="draw scene.png too")
     arguments = parser.parse_args()
-    for name in library.town_names():
+    for name in library.shipped_names():
         town, settings = library.load(name), library.load_settings(name)
         spec = build_scene(town, settings, timestep=SimulationConfig().timestep)
         path = library.folder_of(name) / "scene.xml"

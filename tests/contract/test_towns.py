@@ -9,7 +9,7 @@ from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import library, routing, signals
 
 
-@pytest.fixture(scope="module", params=library.town_names())
+@pytest.fixture(scope="module", params=library.shipped_names())
 def town(request: pytest.FixtureRequest) -> Town:
     return library.load(request.param)
 

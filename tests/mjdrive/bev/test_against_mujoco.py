@@ -106,7 +106,7 @@ def overlap(ours: np.ndarray, theirs: np.ndarray) -> float:
     return np.count_nonzero(ours & theirs) / np.count_nonzero(ours | theirs)
 
 
-@pytest.fixture(scope="module", params=library.town_names())
+@pytest.fixture(scope="module", params=library.shipped_names())
 def town(request: pytest.FixtureRequest) -> Town:
     return library.load(request.param)
 

@@ -19,7 +19,7 @@ from mjdrive.town.settings import TownSettings
 from mjdrive.vehicle import engine
 from mjdrive.vehicle.car import Car
 
-TOWNS = library.town_names()
+TOWNS = library.shipped_names()
 TIMESTEP = SimulationConfig().timestep
 
 

@@ -52,7 +52,7 @@ def _broken(rows: list) -> list:
     return [row for row in rows if not row.holds]
 
 
-@pytest.mark.parametrize("name", library.town_names())
+@pytest.mark.parametrize("name", library.shipped_names())
 def test_carla_reads_our_maps_as_we_do(script: ModuleType, name: str) -> None:
     path = library.folder_of(name) / library.MAP_FILE
     ours, theirs = script.read_with_mjdrive(path), script.read_with_carla(path)

@@ -123,7 +123,7 @@ def test_a_sidewalk_without_width_is_none(maker: Any) -> None:
     assert furniture.sidewalks(maker.map([_road(maker, -1, walk)])) == ()
 
 
-@pytest.mark.parametrize("name", library.town_names())
+@pytest.mark.parametrize("name", library.shipped_names())
 def test_towns_have_paint_and_sidewalks_of_their_maps(name: str) -> None:
     town = library.load(name)
     assert town.markings

@@ -9,7 +9,7 @@ from mjdrive.town.lane_graph import lane_length
 
 
 def test_the_two_towns_are_there() -> None:
-    assert {"town01", "town02"} <= set(library.town_names())
+    assert {"town01", "town02"} <= set(library.shipped_names())
 
 
 @pytest.mark.parametrize(

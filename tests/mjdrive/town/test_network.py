@@ -13,7 +13,7 @@ from mjdrive.town.road_map import RoadMap, SignalReference
 from mjdrive.town.road_shapes import Piece
 from mjdrive.town.settings import LightTiming
 
-TOWNS = library.town_names()
+TOWNS = library.shipped_names()
 
 
 def _build(road_map: RoadMap) -> Town:

@@ -11,7 +11,7 @@ from mjdrive.town import library, surface
 from mjdrive.town.scenery import Scenery, lay_out
 from mjdrive.town.settings import SceneryConfig
 
-TOWNS = library.town_names()
+TOWNS = library.shipped_names()
 NO_TREES = SceneryConfig(tree_spacing=0.0, garden_tree_spacing=0.0)
 
 

@@ -11,7 +11,7 @@ from mjdrive.town import library, signals
 TIMES = np.arange(0.05, 180.0, 0.1)  # whole cycles of junctions with three streets and with four
 
 
-@pytest.mark.parametrize("name", library.town_names())
+@pytest.mark.parametrize("name", library.shipped_names())
 def test_each_approach_has_its_share_of_the_cycle(name: str) -> None:
     town = library.load(name)
     streets = Counter(light.junction for light in town.lights.values())
@@ -22,7 +22,7 @@ def test_each_approach_has_its_share_of_the_cycle(name: str) -> None:
         assert shown == {Signal.GREEN: 100, Signal.YELLOW: 30, Signal.RED: num_tenths - 130}
 
 
-@pytest.mark.parametrize("name", library.town_names())
+@pytest.mark.parametrize("name", library.shipped_names())
 def test_at_most_one_approach_of_a_junction_may_go(name: str) -> None:
     town = library.load(name)
     all_red = Counter[str]()

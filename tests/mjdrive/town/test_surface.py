@@ -12,7 +12,7 @@ from mjdrive.town.road_map import RoadMap
 from mjdrive.town.road_shapes import Cubic
 from mjdrive.town.settings import LightTiming
 
-TOWNS = library.town_names()
+TOWNS = library.shipped_names()
 BLOCKS = {"town01": 7, "town02": 5, "town03": 7}
 """City blocks, all over 1,900 m2."""
 
