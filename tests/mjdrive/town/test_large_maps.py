@@ -33,12 +33,12 @@ def _large_map(document: bytes) -> bytes:
         b"",
         streets[0],
         flags=re.DOTALL,
-    ).replace(b"</lane>", 4 * NOTE + b"</lane>")
+    ).replace(b"</lane>", 8 * NOTE + b"</lane>")
     copies = [
         re.sub(rb'(<road [^>]*id=")', rb"\g<1>%d-" % number, plain).replace(
             b' x="', b' x="%d' % (number + 1)
         )
-        for number in range(220)
+        for number in range(150)
     ]
     header = b'<OpenDRIVE><header revMajor="1" revMinor="4"/>'
     return header + b"".join(copies) + b"</OpenDRIVE>"
