@@ -6,9 +6,9 @@ Usage: python scripts/make_towns.py [NAME ...]
 import sys
 from pathlib import Path
 
-from mjdrive.town import library, opendrive_writer, picture
-from mjdrive.town.street_builder import build_map
-from mjdrive.town.street_plan import read_plan
+from mjdrive.town import library, opendrive, picture
+from mjdrive.town.streets.street_builder import build_map
+from mjdrive.town.streets.street_plan import read_plan
 
 PLANS = Path(__file__).parent / "plans"
 
@@ -18,7 +18,7 @@ def main(names: list[str]) -> None:
     for name in names or sorted(path.stem for path in PLANS.glob("*.toml")):
         folder = library.towns_folder() / name
         folder.mkdir(exist_ok=True)
-        road_map = opendrive_writer.write(build_map(read_plan(PLANS / f"{name}.toml")))
+        road_map = opendrive.write(build_map(read_plan(PLANS / f"{name}.toml")))
         (folder / library.MAP_FILE).write_bytes(road_map)
         picture.save(library.load_folder(folder), folder / "map.png")
         print(f"{folder}: {len(road_map) / 1000:.0f} kB of map")

@@ -13,9 +13,9 @@ import carla
 import numpy as np
 
 from mjdrive.town import opendrive
-from mjdrive.town.lights import TRAFFIC_LIGHT_TYPE
 from mjdrive.town.links import LaneKey
 from mjdrive.town.network import build_town
+from mjdrive.town.opendrive.vocabulary import TRAFFIC_LIGHT_TYPE
 from mjdrive.town.settings import LightTiming
 
 SPACING = 0.1

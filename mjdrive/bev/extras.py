@@ -12,8 +12,8 @@ from mjdrive.bev.rasters import Raster, draw_area
 from mjdrive.config import BevConfig
 from mjdrive.datatypes import Town
 from mjdrive.errors import ConfigError
-from mjdrive.town.blocks import Block
 from mjdrive.town.scenery import Scenery
+from mjdrive.town.scenery.blocks import Block
 
 ROUTE_WIDTH_PX = 16
 """Width of a drawn route, as in Roach [px]."""

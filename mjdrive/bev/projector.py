@@ -16,8 +16,8 @@ from mjdrive.bev.stop_lines import StopLines
 from mjdrive.config import BevConfig
 from mjdrive.datatypes import Town
 from mjdrive.errors import ConfigError
-from mjdrive.town.blocks import Block
 from mjdrive.town.scenery import Scenery
+from mjdrive.town.scenery.blocks import Block
 
 
 class BevProjector:

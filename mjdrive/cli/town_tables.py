@@ -11,7 +11,7 @@ from mjdrive.datatypes import Move, Town
 from mjdrive.town import library
 from mjdrive.town.check import Finding, Severity
 from mjdrive.town.lane_graph import lane_length
-from mjdrive.town.read_report import ReadReport
+from mjdrive.town.opendrive.read_report import ReadReport
 
 MOST_FINDINGS = 5
 """Of each kind and severity; after that the table says how many more there are."""

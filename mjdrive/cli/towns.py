@@ -137,9 +137,10 @@ def export(*, name: str, file: Path, overwrite: bool) -> None:
 def generate(*, seed: int, num_junctions: int, name: str | None) -> None:
     """Make a new town of T- and X-junctions: the same seed makes the same town."""
     from mjdrive.simulation.town_files import new_town
-    from mjdrive.town import generator, opendrive_writer
+    from mjdrive.town import opendrive
     from mjdrive.town.settings import SceneryConfig, TownSettings
-    from mjdrive.town.street_builder import build_map
+    from mjdrive.town.streets import generator
+    from mjdrive.town.streets.street_builder import build_map
 
     name = name or f"generated-{num_junctions}-{seed}"
     plan = generator.generate_plan(name=name, num_junctions=num_junctions, seed=seed)
@@ -148,7 +149,7 @@ def generate(*, seed: int, num_junctions: int, name: str | None) -> None:
         description=f"Generated: {num_junctions} junctions, seed {seed}.",
         scenery=SceneryConfig(seed=seed),
     )
-    document = opendrive_writer.write(road_map)
+    document = opendrive.write(road_map)
     _tell(*new_town(name, document, road_map, settings, seed=seed))
 
 

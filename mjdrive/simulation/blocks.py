@@ -3,7 +3,7 @@
 import mujoco
 import numpy as np
 
-from mjdrive.town.blocks import Block
+from mjdrive.town.scenery.blocks import Block
 from mjdrive.vehicle.assembly import OBSTACLE_BITS
 
 DECIMALS = 3  # millimetres keep scene.xml short and free of rounding noise

@@ -14,7 +14,7 @@ from mjdrive.simulation.blocks import add_block
 from mjdrive.simulation.meshes import Shell
 from mjdrive.simulation.roofs import Roofs
 from mjdrive.simulation.walls import Wall, walls_of
-from mjdrive.town.blocks import Block
+from mjdrive.town.scenery.blocks import Block
 
 FLOOR_HEIGHT = 3.3  # about [m]
 WINDOW_PITCH = 2.7  # about, from one window to the next; half of it is glass [m]

@@ -7,7 +7,7 @@ import numpy as np
 
 from mjdrive.simulation.blocks import add_post
 from mjdrive.simulation.meshes import Shell
-from mjdrive.town.street_trees import Tree
+from mjdrive.town.scenery.street_trees import Tree
 
 CROWN_RINGS = (
     (-0.62, 0.66),

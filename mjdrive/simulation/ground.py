@@ -8,8 +8,8 @@ from mjdrive.simulation.blocks import DECIMALS, SHOWN_GROUP, UNSEEN_GROUP, add_b
 from mjdrive.simulation.meshes import Shell
 from mjdrive.simulation.palette import PAVING_SIZE
 from mjdrive.simulation.sidewalks import KERB_HEIGHT, sidewalk_slabs
-from mjdrive.town.blocks import rings
-from mjdrive.town.scenery import CHORD_ERROR, KERBSTONE_WIDTH, Scenery
+from mjdrive.town.scenery.blocks import rings
+from mjdrive.town.scenery.layout import CHORD_ERROR, KERBSTONE_WIDTH, Scenery
 
 LAND_DEPTH = -0.02  # of the lawns below the road [m]
 VERGE_SINK = 0.015  # of the grass below the kerbstone [m]

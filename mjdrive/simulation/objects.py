@@ -13,9 +13,9 @@ from mjdrive.simulation.facades import Facades
 from mjdrive.simulation.greenery import add_trees
 from mjdrive.simulation.meshes import Shell
 from mjdrive.simulation.walls import walls_along
-from mjdrive.town.blocks import rings
 from mjdrive.town.scenery import ground_of
-from mjdrive.town.street_trees import Tree
+from mjdrive.town.scenery.blocks import rings
+from mjdrive.town.scenery.street_trees import Tree
 from mjdrive.vehicle.assembly import OBSTACLE_BITS
 
 TRUNK_SHARE = 0.12  # radius of a trunk over that of the outline of its tree [-]

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 
 from mjdrive.simulation.meshes import Shell
-from mjdrive.town.blocks import Block
+from mjdrive.town.scenery.blocks import Block
 
 HIGHEST_GABLE = 10.0  # wall of a house with a pitched roof [m]
 DEEPEST_GABLE = 13.0  # [m]

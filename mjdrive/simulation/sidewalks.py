@@ -4,8 +4,8 @@ from itertools import pairwise
 
 import shapely
 
-from mjdrive.town.blocks import Block, block_behind, rings
-from mjdrive.town.scenery import CHORD_ERROR
+from mjdrive.town.scenery.blocks import Block, block_behind, rings
+from mjdrive.town.scenery.layout import CHORD_ERROR
 
 KERB_HEIGHT = 0.12  # [m]
 SHORTEST_SLAB = 0.05  # [m]

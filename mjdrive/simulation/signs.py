@@ -8,6 +8,7 @@ import numpy as np
 from mjdrive.datatypes import Sign
 from mjdrive.simulation.blocks import add_post
 from mjdrive.simulation.meshes import Shell
+from mjdrive.town.opendrive.vocabulary import SPEED_LIMIT_TYPE
 
 POST_RADIUS = 0.035  # [m]
 POST_HEIGHT = 2.9  # [m]
@@ -19,7 +20,7 @@ LAYER = 0.012  # between board, face and digits [m]
 DIGIT = (0.15, 0.30, 0.045)  # width, height and stroke [m]
 DIGIT_PITCH = 0.20  # [m]
 WIDEST_NUMBER = 2.3  # in digits of full size; longer ones are drawn smaller [-]
-SPEED_LIMIT = "274"
+
 # Which strokes of a seven-segment digit are drawn: top, upper left and right, middle, lower left and right, bottom.
 SEGMENTS = (0b1110111, 0b0010010, 0b1011101, 0b1011011, 0b0111010, 0b1101011, 0b1101111, 0b1010010, 0b1111111, 0b1111011)  # fmt: skip
 
@@ -43,7 +44,7 @@ def add_signs(spec: mujoco.MjSpec, signs: Sequence[Sign]) -> None:
             height=POST_HEIGHT,
             material="zinc",
         )
-        is_limit = sign.type == SPEED_LIMIT and sign.value >= 0
+        is_limit = sign.type == SPEED_LIMIT_TYPE and sign.value >= 0
         front = POST_RADIUS + LAYER
         _disc(shells["zinc"], sign, BOARD_RADIUS, front, back=True)
         _disc(shells["sign_red" if is_limit else "sign_white"], sign, BOARD_RADIUS, front)

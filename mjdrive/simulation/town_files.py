@@ -8,8 +8,8 @@ from mjdrive.errors import ConfigError, NameTakenError
 from mjdrive.files import write_atomically
 from mjdrive.simulation.scene import build_scene, scene_xml
 from mjdrive.town import library, picture
-from mjdrive.town.read_report import ReadReport
-from mjdrive.town.road_map import RoadMap
+from mjdrive.town.opendrive.read_report import ReadReport
+from mjdrive.town.opendrive.road_map import RoadMap
 from mjdrive.town.settings import TownSettings
 from mjdrive.town.town_folder import fill, new_town_folder
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from mjdrive.town.blocks import Block
+from mjdrive.town.scenery.blocks import Block
 
 
 class Wall(NamedTuple):

@@ -11,7 +11,7 @@ from mjdrive.datatypes import Lane, Town
 from mjdrive.geometry import curvatures, headings, resample, stations, wrap_angle
 from mjdrive.town.lane_graph import lane_length, round_trips
 from mjdrive.town.lights import light_signals
-from mjdrive.town.road_map import RoadMap
+from mjdrive.town.opendrive.road_map import RoadMap
 
 LARGEST_GAP = 0.01
 """Largest distance between the end of a lane and the start of its successor [m]."""

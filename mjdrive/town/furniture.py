@@ -9,35 +9,19 @@ from jaxtyping import Float
 
 from mjdrive.datatypes import Marking, Sign, StaticObject
 from mjdrive.geometry import offset_polyline, project, stations, wrap_angle
-from mjdrive.town.cross_section import lane_edges, section_bounds
-from mjdrive.town.lane_geometry import lane_edge
-from mjdrive.town.lights import LIGHT_TYPES
 from mjdrive.town.links import SHORTEST_SECTION
-from mjdrive.town.reference_line import reference_line
-from mjdrive.town.road_map import LaneRecord, Road, RoadMap
-from mjdrive.town.road_shapes import RoadMark
+from mjdrive.town.opendrive.cross_section import lane_edges, section_bounds
+from mjdrive.town.opendrive.lane_geometry import lane_edge
+from mjdrive.town.opendrive.reference_line import reference_line
+from mjdrive.town.opendrive.road_map import LaneRecord, Road, RoadMap
+from mjdrive.town.opendrive.road_shapes import RoadMark
+from mjdrive.town.opendrive.vocabulary import LIGHT_TYPES, PAINTED_LINES, SIDEWALK_LANE_TYPES
 
 DEFAULT_PAINT_WIDTH = 0.12
 """Width of a line where the map does not say [m]."""
 
 DEFAULT_DASH = 3.0
 """Length of a dash and of the gap behind it where the map does not say [m]."""
-
-PAINTED_LINES = {
-    "solid": ("solid",),
-    "broken": ("broken",),
-    "solid solid": ("solid", "solid"),
-    "solid broken": ("solid", "broken"),
-    "broken solid": ("broken", "solid"),
-    "broken broken": ("broken", "broken"),
-}
-"""The lines of each painted OpenDRIVE mark, from the inside out; along the middle of the road from left to right.
-
-Kerbs, grass, dots and edges are no paint.
-"""
-
-SIDEWALK_LANE_TYPES = frozenset({"sidewalk", "walking"})
-"""OpenDRIVE lane types that are sidewalks; the second name is that of OpenDRIVE 1.8."""
 
 
 def markings(road_map: RoadMap) -> tuple[Marking, ...]:

@@ -10,19 +10,11 @@ from mjdrive.datatypes import Lane, Signal, TrafficLight
 from mjdrive.errors import TownFormatError
 from mjdrive.geometry import headings
 from mjdrive.town.links import LaneKey, Links
-from mjdrive.town.reference_line import reference_line
-from mjdrive.town.road_map import Road, RoadMap, SignalRecord
+from mjdrive.town.opendrive.reference_line import reference_line
+from mjdrive.town.opendrive.road_map import Road, RoadMap, SignalRecord
+from mjdrive.town.opendrive.vocabulary import LIGHT_TYPES
 from mjdrive.town.settings import LightTiming
 from mjdrive.town.stopped_lanes import stopped_lanes
-
-TRAFFIC_LIGHT_TYPE = "1000001"
-"""OpenDRIVE signal type of a three-colour light."""
-
-LIGHT_TYPES = frozenset({TRAFFIC_LIGHT_TYPE, "1000009", "1000010", "1000011"})
-"""OpenDRIVE signal types of lights that stop cars: three lamps, two lamps, two and three lamps with an arrow.
-
-Lights for people on foot, bicycles and trams are other types.
-"""
 
 
 @dataclass(frozen=True, slots=True)

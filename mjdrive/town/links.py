@@ -4,13 +4,9 @@ from collections import defaultdict
 from typing import NamedTuple
 
 from mjdrive.errors import TownFormatError
-from mjdrive.town.cross_section import section_bounds
-from mjdrive.town.road_map import Connection, LaneRecord, Road, RoadLink, RoadMap
-
-DRIVEN_LANE_TYPES = frozenset(
-    {"driving", "entry", "exit", "onRamp", "offRamp", "connectingRamp", "slipLane"}
-)
-"""OpenDRIVE lane types that become lanes of a town; shoulders, parking, bus and bicycle lanes and others do not."""
+from mjdrive.town.opendrive.cross_section import section_bounds
+from mjdrive.town.opendrive.road_map import Connection, LaneRecord, Road, RoadLink, RoadMap
+from mjdrive.town.opendrive.vocabulary import DRIVEN_LANE_TYPES
 
 SHORTEST_SECTION = 0.001
 """Lane sections below this length are passed through as if they were not there [m]."""

@@ -9,10 +9,11 @@ from mjdrive.datatypes import Lane, Move, Town
 from mjdrive.errors import TownFormatError
 from mjdrive.geometry import headings
 from mjdrive.town import furniture
-from mjdrive.town.lane_geometry import lane_centre
 from mjdrive.town.lights import build_lights
-from mjdrive.town.links import DRIVEN_LANE_TYPES, LaneKey, Links
-from mjdrive.town.road_map import RoadMap
+from mjdrive.town.links import LaneKey, Links
+from mjdrive.town.opendrive.lane_geometry import lane_centre
+from mjdrive.town.opendrive.road_map import RoadMap
+from mjdrive.town.opendrive.vocabulary import DRIVEN_LANE_TYPES
 from mjdrive.town.settings import LightTiming
 
 _STRAIGHT_BELOW = np.pi / 4

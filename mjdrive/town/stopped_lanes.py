@@ -5,7 +5,7 @@ from collections.abc import Container, Mapping
 from dataclasses import dataclass
 
 from mjdrive.town.links import LaneKey, Links
-from mjdrive.town.road_map import Road, RoadMap, SignalRecord, SignalReference
+from mjdrive.town.opendrive.road_map import Road, RoadMap, SignalRecord, SignalReference
 
 FARTHEST_BEFORE_JUNCTION = 50.0
 """A signal further before the end of its road guards something else than the junction there, a crossing say [m]."""

@@ -17,7 +17,7 @@ from mjdrive.errors import NameTakenError, RouteError
 from mjdrive.town import library
 from mjdrive.town.demonstrations import Waypoints, demonstration_routes
 from mjdrive.town.network import build_town
-from mjdrive.town.road_map import RoadMap
+from mjdrive.town.opendrive.road_map import RoadMap
 from mjdrive.town.settings import TownSettings
 
 NUM_ROUTES = 10

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from mjdrive.town import library, opendrive_writer
-from mjdrive.town.generator import generate_plan
-from mjdrive.town.street_builder import build_map
+from mjdrive.town import library, opendrive
+from mjdrive.town.streets.generator import generate_plan
+from mjdrive.town.streets.street_builder import build_map
 
 CHECKER = Path(sys.prefix) / "checker" / "bin" / "qc_opendrive"
 """In an environment of its own, which `make install` sets up: it needs an older numpy."""
@@ -55,7 +55,7 @@ def test_committed_maps_pass_every_rule(name: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize("seed", [0])
 def test_generated_maps_pass_every_rule(seed: int, tmp_path: Path) -> None:
     plan = generate_plan(name="generated", num_junctions=5 + seed, seed=seed)
-    (tmp_path / "map.xodr").write_bytes(opendrive_writer.write(build_map(plan)))
+    (tmp_path / "map.xodr").write_bytes(opendrive.write(build_map(plan)))
     assert check(tmp_path / "map.xodr", tmp_path)[1] == []
 
 

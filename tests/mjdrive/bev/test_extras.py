@@ -7,8 +7,8 @@ from mjdrive.config import BevConfig, from_dict
 from mjdrive.datatypes import Town
 from mjdrive.errors import ConfigError
 from mjdrive.town import library
-from mjdrive.town.blocks import Block
 from mjdrive.town.scenery import Scenery, lay_out
+from mjdrive.town.scenery.blocks import Block
 
 POSE = {"x": 0.0, "y": -2.0, "yaw": 0.0, "time": 0.0, "light_phase": 0.0}
 ALL = ("route", "sidewalks", "buildings", "vehicles")

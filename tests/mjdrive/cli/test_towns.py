@@ -11,9 +11,10 @@ from click.testing import CliRunner, Result
 
 from mjdrive.cli.main import main
 from mjdrive.config import write_json
-from mjdrive.town import generator, library, opendrive_writer
+from mjdrive.town import library, opendrive
 from mjdrive.town.settings import LightTiming, TownSettings
-from mjdrive.town.street_builder import build_map
+from mjdrive.town.streets import generator
+from mjdrive.town.streets.street_builder import build_map
 
 SMALL = ("towns", "generate", "--junctions", "2", "--seed", "1", "--name", "small")
 
@@ -39,7 +40,7 @@ def workplace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def small_map() -> bytes:
     """The map of the town that `SMALL` makes."""
     plan = generator.generate_plan(name="small", num_junctions=2, seed=1)
-    return opendrive_writer.write(build_map(plan))
+    return opendrive.write(build_map(plan))
 
 
 def written(folder: Path) -> dict[str, bytes]:

@@ -7,7 +7,7 @@ from mjdrive.simulation.facades import DOOR, PROUD, add_houses
 from mjdrive.simulation.palette import add_materials
 from mjdrive.simulation.roofs import CORNICE, EAVES, HIGHEST_GABLE
 from mjdrive.simulation.walls import walls_of
-from mjdrive.town.blocks import Block
+from mjdrive.town.scenery.blocks import Block
 
 HOUSE = Block(x=30.0, y=-20.0, yaw=0.6, length=15.0, depth=9.0, height=13.0)
 COTTAGE = Block(x=30.0, y=-20.0, yaw=0.6, length=12.0, depth=9.0, height=6.0)

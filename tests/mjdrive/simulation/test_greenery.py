@@ -4,7 +4,7 @@ import pytest
 
 from mjdrive.simulation.greenery import add_trees
 from mjdrive.simulation.palette import add_materials
-from mjdrive.town.street_trees import CROWN_SHARE, Tree
+from mjdrive.town.scenery.street_trees import CROWN_SHARE, Tree
 
 TREE = Tree(x=40.0, y=-7.0, height=6.0, trunk_radius=0.15, crown_radius=6.0 * CROWN_SHARE[1])
 

@@ -7,7 +7,8 @@ from mjdrive.datatypes import Lane, Town
 from mjdrive.simulation.ground import LAND_DEPTH, add_ground
 from mjdrive.simulation.palette import add_materials
 from mjdrive.simulation.sidewalks import KERB_HEIGHT
-from mjdrive.town.scenery import KERBSTONE_WIDTH, Scenery, lay_out
+from mjdrive.town.scenery import Scenery, lay_out
+from mjdrive.town.scenery.layout import KERBSTONE_WIDTH
 from mjdrive.town.settings import SceneryConfig
 
 SCENERY = SceneryConfig()

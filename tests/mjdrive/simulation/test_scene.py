@@ -14,7 +14,7 @@ from mjdrive.config import SimulationConfig
 from mjdrive.datatypes import Action, Lane, StaticObject, Town
 from mjdrive.simulation.scene import build_scene, scene_xml
 from mjdrive.town import library, surface
-from mjdrive.town.blocks import Block
+from mjdrive.town.scenery.blocks import Block
 from mjdrive.town.settings import TownSettings
 from mjdrive.vehicle import engine
 from mjdrive.vehicle.car import Car

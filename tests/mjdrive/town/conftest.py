@@ -10,9 +10,9 @@ from hypothesis import settings
 
 from mjdrive.config import from_dict
 from mjdrive.datatypes import Town
-from mjdrive.town import opendrive_writer
+from mjdrive.town import opendrive
 from mjdrive.town.network import build_town
-from mjdrive.town.road_map import (
+from mjdrive.town.opendrive.road_map import (
     Connection,
     Junction,
     LaneRecord,
@@ -21,10 +21,10 @@ from mjdrive.town.road_map import (
     RoadLink,
     RoadMap,
 )
-from mjdrive.town.road_shapes import Arc, Cubic, Line, Piece
+from mjdrive.town.opendrive.road_shapes import Arc, Cubic, Line, Piece
 from mjdrive.town.settings import LightTiming
-from mjdrive.town.street_builder import build_map
-from mjdrive.town.street_plan import StreetPlan
+from mjdrive.town.streets.street_builder import build_map
+from mjdrive.town.streets.street_plan import StreetPlan
 
 # Machines that run other things too are slow now and then; pytest-timeout catches what hangs.
 settings.register_profile("town", deadline=None)
@@ -95,7 +95,7 @@ def road_map(plan: StreetPlan) -> RoadMap:
 @pytest.fixture(scope="session")
 def map_bytes(road_map: RoadMap) -> bytes:
     """The map of the small town as a file."""
-    return opendrive_writer.write(road_map)
+    return opendrive.write(road_map)
 
 
 @pytest.fixture(scope="session")

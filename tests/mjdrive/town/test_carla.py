@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mjdrive.town import library, opendrive, opendrive_writer
+from mjdrive.town import library, opendrive
 from mjdrive.town.network import build_town
-from mjdrive.town.road_map import RoadMap
-from mjdrive.town.road_shapes import Cubic, Spiral
+from mjdrive.town.opendrive.road_map import RoadMap
+from mjdrive.town.opendrive.road_shapes import Cubic, Spiral
 from mjdrive.town.settings import LightTiming
 
 pytest.importorskip("carla", reason="CARLA's client is installed on Linux on x86-64 only")
@@ -94,7 +94,7 @@ def test_carla_reads_small_maps_as_we_do(
     num_lanes: int,
 ) -> None:
     path = tmp_path / "map.xodr"
-    path.write_bytes(opendrive_writer.write(draw(maker)))
+    path.write_bytes(opendrive.write(draw(maker)))
     ours, theirs = script.read_with_mjdrive(path), script.read_with_carla(path)
     assert len(theirs.lanes) == num_lanes
     assert theirs.followings

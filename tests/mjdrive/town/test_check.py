@@ -9,8 +9,8 @@ from mjdrive.datatypes import Town
 from mjdrive.town import library, opendrive
 from mjdrive.town.check import Finding, FindingKind, Severity, check
 from mjdrive.town.network import build_town
-from mjdrive.town.road_map import RoadMap
-from mjdrive.town.road_shapes import Cubic
+from mjdrive.town.opendrive.road_map import RoadMap
+from mjdrive.town.opendrive.road_shapes import Cubic
 from mjdrive.town.settings import LightTiming
 
 

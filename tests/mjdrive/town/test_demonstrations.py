@@ -9,7 +9,7 @@ from mjdrive.errors import RouteError
 from mjdrive.town import library, routing
 from mjdrive.town.demonstrations import demonstration_routes
 from mjdrive.town.network import build_town
-from mjdrive.town.road_map import RoadMap
+from mjdrive.town.opendrive.road_map import RoadMap
 from mjdrive.town.settings import LightTiming
 
 LENGTH = 500.0

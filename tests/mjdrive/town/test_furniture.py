@@ -5,8 +5,8 @@ import pytest
 import shapely
 
 from mjdrive.town import furniture, library
-from mjdrive.town.road_map import LaneRecord, ObjectRecord, Road, SignalRecord
-from mjdrive.town.road_shapes import Cubic, RoadMark
+from mjdrive.town.opendrive.road_map import LaneRecord, ObjectRecord, Road, SignalRecord
+from mjdrive.town.opendrive.road_shapes import Cubic, RoadMark
 
 
 def _road(maker: Any, *lanes: LaneRecord | int, **more: Any) -> Road:

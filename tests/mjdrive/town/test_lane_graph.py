@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from mjdrive.datatypes import Lane, Town
 from mjdrive.town.lane_graph import LaneGraph, Place, lane_length, onward, round_trips
 from mjdrive.town.network import build_town
-from mjdrive.town.road_map import RoadMap
+from mjdrive.town.opendrive.road_map import RoadMap
 from mjdrive.town.settings import LightTiming
 
 

@@ -8,7 +8,7 @@ from mjdrive.datatypes import Signal, Town
 from mjdrive.errors import TownFormatError
 from mjdrive.town import signals
 from mjdrive.town.network import build_town
-from mjdrive.town.road_map import RoadMap, SignalRecord, SignalReference
+from mjdrive.town.opendrive.road_map import RoadMap, SignalRecord, SignalReference
 from mjdrive.town.settings import LightTiming
 
 

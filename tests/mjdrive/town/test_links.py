@@ -6,10 +6,11 @@ import pytest
 
 from mjdrive.datatypes import Move, Town
 from mjdrive.errors import TownFormatError
-from mjdrive.town.links import DRIVEN_LANE_TYPES, LaneKey, Links
+from mjdrive.town.links import LaneKey, Links
 from mjdrive.town.network import build_town
-from mjdrive.town.road_map import RoadMap
-from mjdrive.town.road_shapes import Cubic
+from mjdrive.town.opendrive.road_map import RoadMap
+from mjdrive.town.opendrive.road_shapes import Cubic
+from mjdrive.town.opendrive.vocabulary import DRIVEN_LANE_TYPES
 from mjdrive.town.settings import LightTiming
 
 

@@ -9,8 +9,8 @@ from mjdrive.errors import TownFormatError
 from mjdrive.geometry import headings, stations, wrap_angle
 from mjdrive.town import library, opendrive
 from mjdrive.town.network import build_town
-from mjdrive.town.road_map import RoadMap, SignalReference
-from mjdrive.town.road_shapes import Piece
+from mjdrive.town.opendrive.road_map import RoadMap, SignalReference
+from mjdrive.town.opendrive.road_shapes import Piece
 from mjdrive.town.settings import LightTiming
 
 TOWNS = library.shipped_names()

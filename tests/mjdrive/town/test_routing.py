@@ -11,7 +11,7 @@ from mjdrive.geometry import headings, stations
 from mjdrive.town import library, routing
 from mjdrive.town.lane_graph import lane_length
 from mjdrive.town.network import build_town
-from mjdrive.town.road_map import RoadMap
+from mjdrive.town.opendrive.road_map import RoadMap
 from mjdrive.town.settings import LightTiming
 
 # Length [m] and moves of the published routes, driven on CARLA's own maps.

@@ -4,7 +4,7 @@ from typing import Any
 import pytest
 
 from mjdrive.town.links import LaneKey, Links
-from mjdrive.town.road_map import RoadMap, SignalRecord, SignalReference
+from mjdrive.town.opendrive.road_map import RoadMap, SignalRecord, SignalReference
 from mjdrive.town.stopped_lanes import stopped_lanes
 
 LENGTH = 200.0

@@ -8,8 +8,8 @@ import shapely
 from mjdrive.datatypes import Town
 from mjdrive.town import library, surface
 from mjdrive.town.network import build_town
-from mjdrive.town.road_map import RoadMap
-from mjdrive.town.road_shapes import Cubic
+from mjdrive.town.opendrive.road_map import RoadMap
+from mjdrive.town.opendrive.road_shapes import Cubic
 from mjdrive.town.settings import LightTiming
 
 TOWNS = library.shipped_names()
