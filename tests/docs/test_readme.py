@@ -12,7 +12,8 @@ from mjdrive.cli.main import main
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [
-    ROOT / name for name in ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md")
+    ROOT / name
+    for name in ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/towns.md")
 ]
 
 
@@ -26,6 +27,14 @@ def mentions(page: Path) -> list[str]:
     """Every call of mjdrive or make within a line of text."""
     found = re.findall(r"`([^`\n]+)`", page.read_text())
     return [line for line in found if re.match(r"(mjdrive|make) [a-z]", line)]
+
+
+def find_command(words: list[str]) -> tuple[click.Command, list[str]]:
+    """The command, or the command of a group, that words call, and what is left of them."""
+    command: click.Command = main
+    while isinstance(command, click.Group) and words:
+        command, words = command.commands[words[0]], words[1:]
+    return command, words
 
 
 def test_the_pages_show_the_three_lines() -> None:
@@ -42,8 +51,9 @@ def test_commands_and_their_options_exist(page: Path) -> None:
         if program == "make":
             assert set(words) <= targets, line
         elif program == "mjdrive" and not words[0].startswith("--"):
-            known = {name for param in main.commands[words[0]].params for name in param.opts}
-            assert {word for word in words if word.startswith("-")} <= known | {"--help"}, line
+            command, rest = find_command(words)
+            known = {name for param in command.params for name in param.opts}
+            assert {word for word in rest if word.startswith("-")} <= known | {"--help"}, line
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
@@ -52,8 +62,8 @@ def test_lines_in_blocks_can_be_run(page: Path) -> None:
         program, *words = shlex.split(line)
         assert program in {"mjdrive", "make"}, line
         if program == "mjdrive":
-            command = main.commands[words[0]]
-            command.parse_args(click.Context(command), words[1:])  # raises on what it cannot read
+            command, rest = find_command(words)
+            command.parse_args(click.Context(command), rest)  # raises on what it cannot read
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
@@ -68,6 +78,8 @@ def test_rooms_and_files_of_the_architecture_are_those_there_are() -> None:
     assert set(re.findall(r"\b\w+\.py\b", drawn)) <= there
     rooms = {path.parent.name for path in (ROOT / "mjdrive").glob("*/__init__.py")}
     assert rooms == set(re.findall(r"^ {6}(\w+)/", drawn, flags=re.MULTILINE)) - {"samplers"}
+    inner = {path.parent.name for path in (ROOT / "mjdrive").glob("*/*/__init__.py")}
+    assert inner == set(re.findall(r"^ {8}(\w+)/", drawn, flags=re.MULTILINE))
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
