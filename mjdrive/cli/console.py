@@ -1,6 +1,7 @@
 """What the commands show while they work and when they are done."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 
 from rich.console import Console
 from rich.progress import (
@@ -44,6 +45,30 @@ def progress_bars() -> Progress:
         TimeRemainingColumn(),
         console=Console(stderr=True),
     )
+
+
+@contextmanager
+def stages(name: str, count: int) -> Iterator[Callable[[str], None]]:
+    """A bar for work of a few stages, each of which takes a while.
+
+    Args:
+        name: What is worked on.
+        count: Number of stages [-].
+
+    Yields:
+        To be called with the name of each stage when it begins.
+    """
+    with progress_bars() as bars:
+        task = bars.add_task(name, total=count, unit="stages")
+        begun = 0
+
+        def begin(stage: str) -> None:
+            nonlocal begun
+            bars.update(task, description=f"{name}: {stage}", completed=begun)
+            begun += 1
+
+        yield begin
+        bars.update(task, description=name, completed=count)
 
 
 def closing_table(title: str, rows: Mapping[str, object], *, next_command: str) -> None:

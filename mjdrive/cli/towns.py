@@ -97,21 +97,34 @@ def check(*, name: str, flatten: bool) -> None:
 @click.option("--seed", default=0, show_default=True, help="Decides routes and houses.")
 def import_map(*, file: Path, name: str, flatten: bool, seed: int) -> None:
     """Make a town out of an OpenDRIVE map (1.4 to 1.8)."""
+    from mjdrive.cli.console import stages
     from mjdrive.cli.town_tables import findings_table, report_table
     from mjdrive.simulation.town_files import new_town
     from mjdrive.town import check as checks
     from mjdrive.town import opendrive
     from mjdrive.town.settings import SceneryConfig, TownSettings
 
-    road_map, report = opendrive.read_with_report(file, flatten=flatten)
     settings = TownSettings(
         description=f"Imported from {file.name}.",
         scenery=SceneryConfig(seed=seed),
         flatten=flatten,
     )
-    town, folder = new_town(name, file.read_bytes(), road_map, settings, seed=seed, report=report)
+    with stages(name, 5) as on_stage:
+        on_stage("map")
+        road_map, report = opendrive.read_with_report(file, flatten=flatten)
+        town, folder = new_town(
+            name,
+            file.read_bytes(),
+            road_map,
+            settings,
+            seed=seed,
+            report=report,
+            on_stage=on_stage,
+        )
+        on_stage("check")
+        findings = checks.check(town, road_map)
     report_table(report)
-    findings_table(name, checks.check(town, road_map))
+    findings_table(name, findings)
     _tell(town, folder)
 
 
@@ -136,6 +149,7 @@ def export(*, name: str, file: Path, overwrite: bool) -> None:
 @click.option("--name", help="Name of the new town. [default: generated-<junctions>-<seed>]")
 def generate(*, seed: int, num_junctions: int, name: str | None) -> None:
     """Make a new town of T- and X-junctions: the same seed makes the same town."""
+    from mjdrive.cli.console import stages
     from mjdrive.simulation.town_files import new_town
     from mjdrive.town import opendrive
     from mjdrive.town.settings import SceneryConfig, TownSettings
@@ -149,8 +163,11 @@ def generate(*, seed: int, num_junctions: int, name: str | None) -> None:
         description=f"Generated: {num_junctions} junctions, seed {seed}.",
         scenery=SceneryConfig(seed=seed),
     )
-    document = opendrive.write(road_map)
-    _tell(*new_town(name, document, road_map, settings, seed=seed))
+    with stages(name, 3) as on_stage:
+        made = new_town(
+            name, opendrive.write(road_map), road_map, settings, seed=seed, on_stage=on_stage
+        )
+    _tell(*made)
 
 
 def _tell(town: "Town", folder: Path) -> None:

@@ -1,5 +1,6 @@
 """The files of a town folder: written together for a new town, copied out one by one."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 from mjdrive.config import SimulationConfig, write_json
@@ -25,6 +26,7 @@ def new_town(
     *,
     seed: int,
     report: ReadReport | None = None,
+    on_stage: Callable[[str], None] = lambda stage: None,
 ) -> tuple[Town, Path]:
     """Make a town out of an OpenDRIVE map: map, settings, scene and picture, or nothing at all.
 
@@ -35,6 +37,7 @@ def new_town(
         settings: What town.json shall say; routes are found if it names none.
         seed: Decides the routes.
         report: What reading the map left out, to be kept beside it.
+        on_stage: Told what is made next.
 
     Returns:
         The town and its folder.
@@ -45,8 +48,11 @@ def new_town(
         TownFormatError: If the map cannot be driven.
     """
     with new_town_folder(name) as folder:
+        on_stage("routes")
         town = fill(folder, document, road_map, settings, seed=seed)
+        on_stage("scene")
         write_scene(town, settings, folder / SCENE_FILE)
+        on_stage("picture")
         picture.save(town, folder / library.PICTURE_FILE)
         if report is not None:
             write_json(report, folder / REPORT_FILE)

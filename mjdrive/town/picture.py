@@ -3,12 +3,13 @@
 from pathlib import Path
 
 import numpy as np
+import shapely
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
-from shapely.plotting import plot_polygon
 
 from mjdrive.datatypes import Move, Town
-from mjdrive.town.surface import driving_surface
+from mjdrive.town.surface import lane_polygons
 
 MOVE_COLOURS = {
     Move.FOLLOW: "#ffffff",
@@ -18,6 +19,7 @@ MOVE_COLOURS = {
 }
 _ROAD = "#c4c8ce"
 
+_MARGIN = 12.0  # around the lanes [m]
 _LONGER_SIDE = 7.2  # of the map in a picture [inch]
 _LABELS = 0.9  # room for scales [inch]
 
@@ -29,14 +31,20 @@ def draw(town: Town, axes: Axes) -> None:
         town: The town.
         axes: Where to draw; world frame, equal scales [m].
     """
-    plot_polygon(
-        driving_surface(town), ax=axes, add_points=False, facecolor=_ROAD, edgecolor="none"
+    lanes, lights = town.lanes.values(), town.lights.values()
+    outlines = [shapely.get_coordinates(polygon) for polygon in lane_polygons(town).values()]
+    # The outline closes the hairline gaps between neighbouring lanes.
+    axes.add_collection(PolyCollection(outlines, facecolor=_ROAD, edgecolor=_ROAD, linewidth=0.5))
+    colours = [MOVE_COLOURS[lane.move] for lane in lanes]
+    axes.add_collection(
+        LineCollection([lane.centerline for lane in lanes], colors=colours, linewidth=0.7)
     )
-    for lane in town.lanes.values():
-        axes.plot(*lane.centerline.T, color=MOVE_COLOURS[lane.move], linewidth=0.7)
-    for light in town.lights.values():
-        axes.plot(*light.stop_line.T, color="#c0392b", linewidth=1.5)
-        axes.plot(*light.pole, ".", color="#222222", markersize=3)
+    axes.add_collection(
+        LineCollection([light.stop_line for light in lights], colors="#c0392b", linewidth=1.5)
+    )
+    if lights:
+        poles = np.array([light.pole for light in lights])
+        axes.plot(*poles.T, ".", color="#222222", markersize=3)
     for junction in sorted({light.junction for light in town.lights.values()}):
         points = [
             lane.centerline.mean(axis=0)
@@ -52,7 +60,12 @@ def draw(town: Town, axes: Axes) -> None:
             fontsize=7,
             ha="center",
         )
-    axes.set_aspect("equal")
+    west, south, east, north = town.bounds
+    axes.set(
+        aspect="equal",
+        xlim=(west - _MARGIN, east + _MARGIN),
+        ylim=(south - _MARGIN, north + _MARGIN),
+    )
     axes.set_xlabel("x [m]")
     axes.set_ylabel("y [m]")
 

@@ -159,22 +159,29 @@ def random_start(town: Town, rng: np.random.Generator) -> tuple[str, float]:
     Raises:
         RouteError: If no lane is long enough.
     """
+    names, room = _starts(town)
+    if not names:
+        raise RouteError(
+            f"Town '{town.name}' has no lane outside junctions longer than {_CLEAR_BEFORE_JUNCTION} m."
+        )
+    ends = np.cumsum(room)
+    draw = rng.uniform(0.0, ends[-1])
+    index = int(np.searchsorted(ends, draw, side="right"))
+    return names[index], float(draw - (ends[index] - room[index]))
+
+
+@lru_cache(maxsize=4)
+def _starts(town: Town) -> tuple[tuple[str, ...], Float[np.ndarray, " N"]]:
+    """Lanes to start on, and how much of each is far enough from its end [m]."""
     room = {
         name: lane_length(lane) - _CLEAR_BEFORE_JUNCTION
         for name, lane in town.lanes.items()
         if lane.junction is None and lane_length(lane) > _CLEAR_BEFORE_JUNCTION
     }
-    if not room:
-        raise RouteError(
-            f"Town '{town.name}' has no lane outside junctions longer than {_CLEAR_BEFORE_JUNCTION} m."
-        )
-    ahead = onward(town)
-    room = {name: length for name, length in room.items() if np.isinf(ahead[name])} or room
-    names = list(room)
-    ends = np.cumsum([room[name] for name in names])
-    draw = rng.uniform(0.0, ends[-1])
-    index = int(np.searchsorted(ends, draw, side="right"))
-    return names[index], float(draw - (ends[index] - room[names[index]]))
+    if room:
+        ahead = onward(town)
+        room = {name: length for name, length in room.items() if np.isinf(ahead[name])} or room
+    return tuple(room), np.array(list(room.values()))
 
 
 class _Way(NamedTuple):
@@ -199,11 +206,13 @@ def _best_way(graph: LaneGraph, ways: list[_Way], place: Place, off: float) -> _
 def _places(town: Town, index: int, waypoint: Float[np.ndarray, "2"]) -> list[tuple[Place, float]]:
     """Find the places on lanes that a waypoint lies on, and its distances from the centre lines [m]."""
     found = []
-    for name, lane in town.lanes.items():
-        if np.min(np.hypot(*(lane.centerline - waypoint).T)) <= lane.width:
+    points, starts = _vertices(town)
+    reach = np.sqrt(np.minimum.reduceat(np.sum((points - waypoint) ** 2, axis=1), starts))
+    for lane, distance in zip(town.lanes.values(), reach, strict=True):
+        if distance <= lane.width:
             projection = project(lane.centerline, waypoint)
             if abs(projection.offset) <= lane.width / 2:
-                found.append((Place(name, projection.station), abs(projection.offset)))
+                found.append((Place(lane.id, projection.station), abs(projection.offset)))
     if not found:
         name, projection = nearest_lane(town, waypoint)
         raise RouteError(

@@ -1,6 +1,7 @@
 """The ground that lanes and roads cover, as polygons."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
+from functools import lru_cache
 
 import numpy as np
 import shapely
@@ -57,6 +58,7 @@ def lane_polygons(town: Town) -> dict[str, Polygon]:
     return {name: _outline(lane) for name, lane in town.lanes.items()}
 
 
+@lru_cache(maxsize=4)
 def driving_surface(town: Town) -> Polygon | MultiPolygon:
     """Join all lanes: where a car is on the road.
 
@@ -66,9 +68,11 @@ def driving_surface(town: Town) -> Polygon | MultiPolygon:
     Returns:
         Union of the lanes, world frame [m].
     """
-    return _joined(lane_polygons(town))
+    union = shapely.union_all(list(lane_polygons(town).values()))
+    return union.buffer(_SEAM, join_style="mitre").buffer(-_SEAM, join_style="mitre")
 
 
+@lru_cache(maxsize=8)
 def road_surface(town: Town, shoulder: float = 0.3) -> Polygon | MultiPolygon:
     """Widen the lanes by the gutter: its boundary is where the kerbs stand.
 
@@ -82,9 +86,9 @@ def road_surface(town: Town, shoulder: float = 0.3) -> Polygon | MultiPolygon:
     Returns:
         The road with city blocks and islands as holes, world frame [m].
     """
-    polygons = lane_polygons(town)
-    wide = _joined(polygons).buffer(shoulder + _NARROWEST_NOTCH / 2).buffer(-_NARROWEST_NOTCH / 2)
-    tree = shapely.STRtree(list(polygons.values()))
+    surface = driving_surface(town)
+    wide = surface.buffer(shoulder + _NARROWEST_NOTCH / 2).buffer(-_NARROWEST_NOTCH / 2)
+    tree = shapely.STRtree(list(lane_polygons(town).values()))
     lanes = list(town.lanes.values())
     parts = []
     for part in shapely.get_parts(wide):
@@ -117,11 +121,6 @@ def _extent(part: shapely.Geometry) -> float:
     """Diagonal of the bounding box [m]."""
     low_x, low_y, high_x, high_y = part.bounds
     return float(np.hypot(high_x - low_x, high_y - low_y))
-
-
-def _joined(polygons: Mapping[str, Polygon]) -> Polygon | MultiPolygon:
-    union = shapely.union_all(list(polygons.values()))
-    return union.buffer(_SEAM, join_style="mitre").buffer(-_SEAM, join_style="mitre")
 
 
 def _outline(lane: Lane) -> Polygon:

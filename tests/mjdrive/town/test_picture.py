@@ -9,7 +9,11 @@ from mjdrive.town import picture
 def test_every_lane_light_and_junction_is_drawn(ladder: Town) -> None:
     axes = Figure().subplots()
     picture.draw(ladder, axes)
-    assert len(axes.lines) == len(ladder.lanes) + 2 * len(ladder.lights)
+    outlines, centres, stop_lines = axes.collections
+    assert len(outlines.get_paths()) == len(centres.get_paths()) == len(ladder.lanes)
+    assert len(stop_lines.get_paths()) == len(ladder.lights)
+    (poles,) = axes.lines
+    assert len(poles.get_xdata()) == len(ladder.lights)
     assert {text.get_text() for text in axes.texts} == {"20", "21"}
 
 
