@@ -10,6 +10,7 @@ from jaxtyping import Float, UInt8, UInt16
 from mjdrive.bev.layers import MARKED, Layer
 from mjdrive.config import BevConfig
 from mjdrive.datatypes import Town
+from mjdrive.errors import TownFormatError
 from mjdrive.town import surface
 
 _LANES_MARGIN = 15.0
@@ -17,6 +18,9 @@ _LANES_MARGIN = 15.0
 
 _SCENERY_MARGIN = 60.0
 """Border with sidewalks and houses around the lanes [m]."""
+
+LARGEST_RASTER = 200_000_000
+"""Most pixels of a raster of a town, about 2.8 km by 2.8 km at 5 px/m; drawing it takes some 8 bytes each [px]."""
 
 _LINE_GAIN = np.uint16(255)
 """How much stronger than the road a lane line is where both share a raster; see `_road_and_lines`."""
@@ -48,6 +52,26 @@ class Raster:
             bev[channel] *= np.uint8(MARKED)
 
 
+def require_drawable(town: Town, config: BevConfig | None = None) -> None:
+    """Refuse a town that is too large to draw as a whole.
+
+    Args:
+        town: Road network.
+        config: How the view is drawn; as the paper does if None.
+
+    Raises:
+        TownFormatError: If the raster of its lanes would have more than `LARGEST_RASTER` pixels.
+    """
+    scale = (config or BevConfig()).pixels_per_metre
+    width, height = _Canvas(town, _LANES_MARGIN, scale).size_px
+    if width * height > LARGEST_RASTER:
+        raise TownFormatError(
+            f"Town '{town.name}' covers {width / scale:.0f} m by {height / scale:.0f} m, {width * height / 1e6:.0f} "
+            f"million pixels seen from above; expected {LARGEST_RASTER / 1e6:.0f} million or fewer, "
+            f"{LARGEST_RASTER / scale**2 / 1e6:.1f} square kilometres. Cut the map into parts and import each."
+        )
+
+
 def draw_lanes(town: Town, config: BevConfig) -> tuple[Raster, ...]:
     """Draw the road and lane-line channels of a town.
 
@@ -59,7 +83,11 @@ def draw_lanes(town: Town, config: BevConfig) -> tuple[Raster, ...]:
 
     Returns:
         One raster with both layers, or two where the outline is too narrow for that.
+
+    Raises:
+        TownFormatError: If the town is too large.
     """
+    require_drawable(town, config)
     canvas = _Canvas(town, _LANES_MARGIN, config.pixels_per_metre)
     road, lane_lines = canvas.blank(), canvas.blank()
     for lane in town.lanes.values():
@@ -105,14 +133,15 @@ class _Canvas:
         left, bottom, right, top = town.bounds + np.array([-1, -1, 1, 1]) * margin
         scale = pixels_per_metre
         extent = np.array([right - left, top - bottom]) * scale
-        self._width_px, self._height_px = np.ceil(extent).astype(int).tolist()
+        self.size_px: tuple[int, int] = tuple(np.ceil(extent).astype(int).tolist())
         self._raster_from_world = np.array(
             [[scale, 0.0, -scale * left], [0.0, -scale, scale * top], [0.0, 0.0, 1.0]]
         )
         self.world_from_raster = np.linalg.inv(self._raster_from_world)
 
     def blank(self) -> UInt8[np.ndarray, "H W"]:
-        return np.zeros((self._height_px, self._width_px), np.uint8)
+        width, height = self.size_px
+        return np.zeros((height, width), np.uint8)
 
     def pixels(self, points: Float[np.ndarray, "N 2"]) -> np.ndarray:
         raster = points @ self._raster_from_world[:2, :2].T + self._raster_from_world[:2, 2]

@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 from mjdrive.bev.layers import Layer
 from mjdrive.bev.projector import BevProjector
-from mjdrive.bev.rasters import draw_area, draw_lanes
+from mjdrive.bev.rasters import LARGEST_RASTER, draw_area, draw_lanes, require_drawable
 from mjdrive.config import BevConfig
 from mjdrive.datatypes import Lane, Town
-from mjdrive.errors import ConfigError
+from mjdrive.errors import ConfigError, TownFormatError
 from mjdrive.town import library
 
 BENCH = Path(__file__).resolve().parents[3] / "scripts" / "bench" / "bev.py"
@@ -162,3 +162,17 @@ def test_areas_keep_their_holes_and_overlaps(make_street):
     for point, expected in (((5, 30), 255), ((20, 30), 0), ((37, 30), 255), ((50, 30), 255)):
         column, row, _ = np.rint(raster_from_world @ [*point, 1.0]).astype(int)
         assert raster.image[row, column] == expected
+
+
+def test_towns_too_large_to_draw_are_refused_before_any_memory_is_taken():
+    def diagonal(side: float) -> Town:
+        line = np.array([[0.0, 0.0], [side, side]])
+        return bare_town(Lane("a", line, 4.0, (), None, None))
+
+    largest = np.sqrt(LARGEST_RASTER) / 5 - 2 * (10 + 15)  # margins of the bounds and of the raster
+    require_drawable(diagonal(largest - 0.5))
+    with pytest.raises(TownFormatError, match="expected 200 million or fewer"):
+        require_drawable(diagonal(largest + 0.5))
+    with pytest.raises(TownFormatError, match=r"covers 100050 m by 100050 m.*Cut the map"):
+        draw_lanes(diagonal(100_000.0), BevConfig())  # 250 GB
+    require_drawable(diagonal(2 * largest), BevConfig(pixels_per_metre=2.5))
