@@ -9,6 +9,7 @@ from jaxtyping import Float
 
 from mjdrive.datatypes import Marking, Town
 from mjdrive.geometry import offset_polyline, stations
+from mjdrive.simulation import palette
 from mjdrive.simulation.meshes import Shell
 from mjdrive.town import surface
 from mjdrive.town.scenery import ground_of
@@ -43,7 +44,7 @@ def add_markings(spec: mujoco.MjSpec, town: Town) -> None:
         ribbons.setdefault(marking.color, []).extend(paint)
     for layer, (color, paint) in enumerate(sorted(ribbons.items())):
         height = PAINT_HEIGHT + layer * BETWEEN_COLORS
-        _show(spec, f"marking_{color}", paint, material=f"{color}_paint", height=height)
+        _show(spec, f"marking_{color}", paint, material=palette.paint(spec, color), height=height)
     bars = [shapely.Polygon(bar) for bar in stop_bars(town)]
     _show(spec, "stop_bars", bars, material="white_paint", height=ABOVE_LINES)
     areas = []

@@ -41,6 +41,11 @@ PLAIN: dict[str, Rgb] = {
     "sign_black": (0.08, 0.08, 0.09),
     "concrete": (0.77, 0.76, 0.74),
 }
+RARE_PAINT: dict[str, Rgb] = {
+    "black_paint": (0.16, 0.16, 0.17),
+    "violet_paint": (0.55, 0.37, 0.66),
+}
+"""Paint that few maps use; only their scenes hold it."""
 PAVING: Rgb = (0.77, 0.75, 0.72)
 PAVING_JOINT: Rgb = (0.70, 0.68, 0.65)
 PAVING_SIZE = 1.0  # of a slab [m]
@@ -54,6 +59,22 @@ def wall(number: int) -> str:
 def windows(number: int) -> str:
     """Name the material of window bands: glass for the first half of each unit of texture, wall for the second."""
     return f"windows_{number}"
+
+
+def paint(spec: mujoco.MjSpec, color: str) -> str:
+    """Name the material of a road mark's paint.
+
+    Args:
+        spec: Scene; a rare paint is added to it.
+        color: One of OpenDRIVE's colours, "standard" aside.
+
+    Returns:
+        Its name.
+    """
+    name = f"{color}_paint"
+    if name in RARE_PAINT and spec.material(name) is None:
+        _add(spec, name, RARE_PAINT[name])
+    return name
 
 
 def add_materials(spec: mujoco.MjSpec) -> None:

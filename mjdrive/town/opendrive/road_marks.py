@@ -1,6 +1,7 @@
 """Read what is painted along the edges of lanes."""
 
 from mjdrive.town.opendrive.road_shapes import RoadMark
+from mjdrive.town.opendrive.vocabulary import MARK_COLORS
 from mjdrive.town.opendrive.xml_fields import Element, XmlFields
 
 
@@ -41,12 +42,20 @@ def _read_mark(fields: XmlFields, element: Element) -> RoadMark:
             fields.note("road mark with lines of different dashes; the first is used")
     return RoadMark(
         type=fields.text(element, "type"),
-        color=fields.optional(element, "color", "standard"),
+        color=_read_color(fields, element),
         width=max(width, 0.0),
         start=fields.number(element, "sOffset"),
         dash=dash,
         gap=gap,
     )
+
+
+def _read_color(fields: XmlFields, mark: Element) -> str:
+    color = fields.optional(mark, "color", "standard")
+    if color.lower() in MARK_COLORS:
+        return color.lower()
+    fields.note(f"road mark color '{color[:40]}'")
+    return "white"
 
 
 def _read_lines(fields: XmlFields, kind: Element) -> list[tuple[float, float, float]]:

@@ -113,7 +113,7 @@ class RoadMark:
 
     Attributes:
         type: "none", "broken", "solid", "solid solid", "solid broken", "broken solid", "broken broken", "curb" and others.
-        color: "standard", "white", "yellow", "blue", "red", "green", "orange".
+        color: One of `vocabulary.MARK_COLORS`.
         width: Width of the mark; 0 if the map does not say [m].
         start: Where it begins, in its lane section [m].
         dash: Length of a dash; 0 if the map does not say [m].

@@ -69,3 +69,8 @@ PAINTED_LINES = {
 
 Kerbs, grass, dots and edges are no paint.
 """
+
+MARK_COLORS = frozenset(
+    {"standard", "white", "yellow", "blue", "red", "green", "orange", "black", "violet"}
+)
+"""OpenDRIVE colours of road marks; "standard" is white."""

@@ -9,6 +9,7 @@ from mjdrive.datatypes import Lane, Marking, Signal, Town, TrafficLight
 from mjdrive.geometry import stations
 from mjdrive.simulation.markings import add_markings, centre_lines, painted, stop_bars, zebra
 from mjdrive.simulation.palette import add_materials
+from mjdrive.town.opendrive.vocabulary import MARK_COLORS
 
 
 def lane(name: str, points: list[list[float]], *, junction: str | None = None) -> Lane:
@@ -126,3 +127,14 @@ def test_stop_bar_lies_on_the_lane_before_the_stop_line(street):
 def test_stop_bars_face_the_sky(street):
     for quad in stop_bars(street):
         assert shapely.LinearRing(quad).is_ccw
+
+
+@pytest.mark.parametrize("color", sorted(MARK_COLORS - {"standard"}))
+def test_every_color_of_opendrive_can_be_painted(street, color):
+    line = Marking(np.array([[0.0, 0.0], [4.0, 0.0]]), 0.12, color=color)
+    spec = mujoco.MjSpec()
+    add_materials(spec)
+    add_markings(spec, replace(street, markings=(line,)))
+    model = spec.compile()
+    material = model.material(int(model.geom(f"marking_{color}").matid[0]))
+    assert material.name == f"{color}_paint"
