@@ -1,17 +1,19 @@
 """Walk every lane of a town and say what would break a drive, or make it a poor one."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from enum import IntEnum, StrEnum
 
 import numpy as np
 import shapely
 
 from mjdrive.datatypes import Lane, Town
 from mjdrive.geometry import curvatures, headings, resample, stations, wrap_angle
+from mjdrive.town.findings import Finding, FindingKind, Severity
 from mjdrive.town.lane_graph import lane_length, round_trips
 from mjdrive.town.lights import light_signals
+from mjdrive.town.obstructions import obstructions
 from mjdrive.town.opendrive.road_map import RoadMap
+
+__all__ = ["Finding", "FindingKind", "Severity", "check"]
 
 LARGEST_GAP = 0.01
 """Largest distance between the end of a lane and the start of its successor [m]."""
@@ -29,50 +31,6 @@ _SHARED_END = 0.1
 """Stop lines of lanes side by side meet; what they share at their ends is no crossing [m]."""
 
 
-class Severity(IntEnum):
-    """How bad a finding is."""
-
-    NOTE = 0
-    WARNING = 1
-    ERROR = 2
-
-
-class FindingKind(StrEnum):
-    """What can be wrong with a town."""
-
-    GAP = "gap"
-    DEAD_END = "dead end"
-    IDLE_LIGHT = "light that controls nothing"
-    CROSSED_STOP_LINES = "stop lines that cross"
-    KINK = "kink"
-    UNREACHED = "lane that nothing leads to"
-    NARROW = "narrow lane"
-    ISLAND = "island"
-    TIGHT_TURN = "tight turn"
-
-
-@dataclass(frozen=True, slots=True)
-class Finding:
-    """One thing that is wrong, or worth to know.
-
-    Attributes:
-        kind: What it is.
-        severity: How bad it is.
-        where: Name of the lane, light, signal or town.
-        text: One sentence with the figures.
-    """
-
-    kind: FindingKind
-    severity: Severity
-    where: str
-    text: str
-
-    @property
-    def breaks_a_drive(self) -> bool:
-        """Whether a car that comes there cannot go on, or is judged by what is not there."""
-        return self.severity is Severity.ERROR
-
-
 def check(town: Town, road_map: RoadMap | None = None) -> tuple[Finding, ...]:
     """Look for what would break a drive.
 
@@ -85,6 +43,7 @@ def check(town: Town, road_map: RoadMap | None = None) -> tuple[Finding, ...]:
     """
     found = [finding for lane in town.lanes.values() for finding in _lane_findings(town, lane)]
     found += _unreached(town)
+    found += _on_lanes(town)
     found += _crossed_stop_lines(town)
     found += _islands(town)
     if road_map is not None:
@@ -181,6 +140,21 @@ def _unreached(town: Town) -> list[Finding]:
         )
         for name, lane in town.lanes.items()
         if name not in reached
+    ]
+
+
+def _on_lanes(town: Town) -> list[Finding]:
+    return [
+        Finding(
+            FindingKind.ON_LANE,
+            Severity.ERROR,
+            thing.thing,
+            f"The {thing.what or 'object'} stands at ({thing.x:.1f}, {thing.y:.1f}) on lane "
+            + ", ".join(f"'{name}'" for name in thing.lanes[:3])
+            + (f" and {len(thing.lanes) - 3} more" if len(thing.lanes) > 3 else "")
+            + ": cars run into it. Check its s and t.",
+        )
+        for thing in obstructions(town)
     ]
 
 
