@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
@@ -59,16 +60,16 @@ def stages(name: str, count: int) -> Iterator[Callable[[str], None]]:
         To be called with the name of each stage when it begins.
     """
     with progress_bars() as bars:
-        task = bars.add_task(name, total=count, unit="stages")
+        task = bars.add_task(escape(name), total=count, unit="stages")
         begun = 0
 
         def begin(stage: str) -> None:
             nonlocal begun
-            bars.update(task, description=f"{name}: {stage}", completed=begun)
+            bars.update(task, description=escape(f"{name}: {stage}"), completed=begun)
             begun += 1
 
         yield begin
-        bars.update(task, description=name, completed=count)
+        bars.update(task, description=escape(name), completed=count)
 
 
 def closing_table(title: str, rows: Mapping[str, object], *, next_command: str) -> None:
@@ -80,11 +81,12 @@ def closing_table(title: str, rows: Mapping[str, object], *, next_command: str) 
         next_command: The command that the user is likely to want next.
     """
     console = Console()
-    table = Table(title=title, title_justify="left", show_header=False)
+    # Names and paths are shown as they are: no markup of rich is read in them.
+    table = Table(title=Text(title), title_justify="left", show_header=False)
     table.add_column(style="bold", no_wrap=True)
     table.add_column(overflow="fold")
     for name, value in rows.items():
-        table.add_row(name, str(value))
+        table.add_row(name, Text(str(value)))
     console.print(table)
     console.print("Next: ", end="")
     console.print(next_command, style="bold cyan", markup=False, highlight=False, soft_wrap=True)

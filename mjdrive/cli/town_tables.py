@@ -6,6 +6,7 @@ from itertools import groupby
 
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from mjdrive.datatypes import Move, Town
 from mjdrive.town import library
@@ -32,7 +33,7 @@ def towns_table(towns: Mapping[str, Town]) -> None:
             str(len(junctions_of(town))),
             str(len(town.lights)),
             str(len(settings.routes)),
-            settings.description,
+            Text(settings.description),
         )
     Console().print(table)
 
@@ -50,6 +51,7 @@ def figures_of(town: Town) -> dict[str, str]:
         ),
         "lights": str(len(town.lights)),
         "signs, other things": f"{len(town.signs)}, {len(town.objects)}",
+        "routes for collect": str(len(library.load_settings(town.name).routes)),
         "digest": town.digest[:16],
     }
 
@@ -66,7 +68,7 @@ def _length(town: Town) -> float:
 def report_table(report: ReadReport) -> None:
     """Print what was read from a map, and all that was not used."""
     table = Table(
-        title=f"{report.source}: OpenDRIVE {report.version}",
+        title=Text(f"{report.source}: OpenDRIVE {report.version}"),
         title_justify="left",
         show_header=False,
     )
@@ -81,7 +83,7 @@ def report_table(report: ReadReport) -> None:
         ("not used", report.not_used),
     ):
         text = ", ".join(f"{count} {kind}" for kind, count in counts.items())
-        table.add_row(heading, text or "none")
+        table.add_row(heading, Text(text or "none"))
     if report.flattened.roads:
         flattened = report.flattened
         table.add_row(
@@ -96,9 +98,9 @@ def findings_table(name: str, findings: Sequence[Finding]) -> None:
     """Print what a check found, a few of each kind."""
     console = Console()
     if not findings:
-        console.print(f"[green]✓[/green] {name}: nothing found that would break a drive.")
+        console.print(Text(f"✓ {name}: nothing found that would break a drive.", style="green"))
         return
-    table = Table(title=f"{name}, checked", title_justify="left", header_style="bold")
+    table = Table(title=Text(f"{name}, checked"), title_justify="left", header_style="bold")
     table.add_column("severity")
     table.add_column("what")
     table.add_column("where", overflow="fold")
@@ -106,9 +108,8 @@ def findings_table(name: str, findings: Sequence[Finding]) -> None:
     for (severity, kind), group in groupby(findings, key=lambda f: (f.severity, f.kind)):
         same = list(group)
         for finding in same[:MOST_FINDINGS]:
-            table.add_row(
-                severity.name.lower(), kind, finding.where, finding.text, style=_STYLES[severity]
-            )
+            where, why = Text(finding.where), Text(finding.text)
+            table.add_row(severity.name.lower(), kind, where, why, style=_STYLES[severity])
         if len(same) > MOST_FINDINGS:
             table.add_row(severity.name.lower(), kind, "", f"and {len(same) - MOST_FINDINGS} more")
     console.print(table)

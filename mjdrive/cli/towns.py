@@ -9,7 +9,7 @@ import rich_click as click
 if TYPE_CHECKING:
     from mjdrive.datatypes import Town
 
-MAP_SUFFIX = "xodr"
+MAP_SUFFIX = ".xodr"
 
 EXIT_FINDINGS = 1
 """Of `check`, where something would break a drive."""
@@ -73,8 +73,9 @@ def check(*, name: str, flatten: bool) -> None:
     from mjdrive.town.settings import LightTiming
 
     file = Path(name)
-    if file.suffix == f".{MAP_SUFFIX}":
+    if file.suffix.lower() == MAP_SUFFIX or file.is_file():
         road_map = opendrive.read(file, flatten=flatten)
+        road_map = opendrive.moved(road_map, opendrive.near_origin(road_map))
         town = build_town(road_map, name=file.stem, timing=LightTiming(), digest="")
     else:
         town = library.load(name)
@@ -94,27 +95,36 @@ def check(*, name: str, flatten: bool) -> None:
 @click.option(
     "--flatten", is_flag=True, help="Use the plan of a sloped map and leave its heights out."
 )
-@click.option("--seed", default=0, show_default=True, help="Decides routes and houses.")
+@click.option(
+    "--seed",
+    default=0,
+    show_default=True,
+    type=click.IntRange(0, 2**32 - 1),
+    help="Decides routes and houses.",
+)
 def import_map(*, file: Path, name: str, flatten: bool, seed: int) -> None:
     """Make a town out of an OpenDRIVE map (1.4 to 1.8)."""
     from mjdrive.cli.console import stages
     from mjdrive.cli.town_tables import findings_table, report_table
     from mjdrive.simulation.town_files import new_town
     from mjdrive.town import check as checks
-    from mjdrive.town import opendrive
+    from mjdrive.town import opendrive, town_folder
     from mjdrive.town.settings import SceneryConfig, TownSettings
 
+    town_folder.require_new_name(name)
+    document = opendrive.read_bytes(file)
+    road_map, report = opendrive.parse_with_report(document, source=str(file), flatten=flatten)
     settings = TownSettings(
         description=f"Imported from {file.name}.",
         scenery=SceneryConfig(seed=seed),
+        origin=opendrive.near_origin(road_map),
         flatten=flatten,
     )
-    with stages(name, 5) as on_stage:
-        on_stage("map")
-        road_map, report = opendrive.read_with_report(file, flatten=flatten)
+    road_map = opendrive.moved(road_map, settings.origin)
+    with stages(name, 4) as on_stage:
         town, folder = new_town(
             name,
-            file.read_bytes(),
+            document,
             road_map,
             settings,
             seed=seed,
@@ -151,12 +161,13 @@ def generate(*, seed: int, num_junctions: int, name: str | None) -> None:
     """Make a new town of T- and X-junctions: the same seed makes the same town."""
     from mjdrive.cli.console import stages
     from mjdrive.simulation.town_files import new_town
-    from mjdrive.town import opendrive
+    from mjdrive.town import opendrive, town_folder
     from mjdrive.town.settings import SceneryConfig, TownSettings
     from mjdrive.town.streets import generator
     from mjdrive.town.streets.street_builder import build_map
 
     name = name or f"generated-{num_junctions}-{seed}"
+    town_folder.require_new_name(name)
     plan = generator.generate_plan(name=name, num_junctions=num_junctions, seed=seed)
     road_map = build_map(plan)
     settings = TownSettings(

@@ -128,6 +128,7 @@ def load_folder(folder: Path) -> Town:
             )
     settings = read_json(TownSettings, folder / SETTINGS_FILE)
     road_map = opendrive.read(folder / MAP_FILE, flatten=settings.flatten)
+    road_map = opendrive.moved(road_map, settings.origin)
     name = folder.resolve().name
     return build_town(road_map, name=name, timing=settings.lights, digest=digest_of(folder))
 

@@ -1,5 +1,6 @@
 """Draw a town from above."""
 
+import io
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 
+from mjdrive.config import require
 from mjdrive.datatypes import Move, Town
+from mjdrive.files import write_atomically
 from mjdrive.town.surface import lane_polygons
 
 MOVE_COLOURS = {
@@ -58,6 +61,7 @@ def draw(town: Town, axes: Axes) -> None:
             xytext=(13, 11),
             textcoords="offset points",
             fontsize=7,
+            parse_math=False,
             ha="center",
         )
     west, south, east, north = town.bounds
@@ -75,8 +79,15 @@ def save(town: Town, path: Path) -> None:
 
     Args:
         town: The town.
-        path: File to write.
+        path: PNG file to write.
+
+    Raises:
+        ConfigError: If the file is to end in something else.
     """
+    require(
+        path.suffix.lower() == ".png",
+        f"Cannot draw a town into '{path}'; expected a file that ends in .png.",
+    )
     west, south, east, north = town.bounds
     width, height = east - west, north - south
     scale = _LONGER_SIDE / max(width, height)
@@ -84,4 +95,6 @@ def save(town: Town, path: Path) -> None:
         figsize=(scale * width + _LABELS, scale * height + _LABELS), layout="constrained"
     )
     draw(town, figure.subplots())
-    figure.savefig(path, dpi=110, metadata={"Software": None})
+    picture = io.BytesIO()
+    figure.savefig(picture, format="png", dpi=110, metadata={"Software": None})
+    write_atomically(path, picture.getvalue())

@@ -96,6 +96,7 @@ class TownSettings:
         lights: Light timing of every junction.
         routes: Waypoints (x, y) by route name, world frame [m].
         scenery: What stands beside the roads.
+        origin: Point of the map that is the origin of the town, x and y [m].
         flatten: Whether heights and banks of the map are left out; a map that has some is refused otherwise.
     """
 
@@ -103,6 +104,7 @@ class TownSettings:
     lights: LightTiming = field(default_factory=LightTiming)
     routes: dict[str, tuple[tuple[float, float], ...]] = field(default_factory=dict)
     scenery: SceneryConfig = field(default_factory=SceneryConfig)
+    origin: tuple[float, float] = (0.0, 0.0)
     flatten: bool = False
 
     def __post_init__(self) -> None:

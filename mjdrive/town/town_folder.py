@@ -44,29 +44,34 @@ def new_town_folder(name: str, *, parent: Path = library.OWN_TOWNS) -> Iterator[
         ConfigError: If the name is none for a town.
         NameTakenError: If there is a town of that name, or a folder in its place.
     """
-    require(
-        _NAME.fullmatch(name) is not None,
-        f"A town cannot be called '{name}'; expected a small letter, then small letters, digits, '-' and '_'.",
-    )
-    require_free(name, parent)
+    require_new_name(name, parent=parent)
     parent.mkdir(parents=True, exist_ok=True)
     hidden = Path(tempfile.mkdtemp(prefix=f".{name}-", dir=parent))
     try:
         folder = hidden / name
         folder.mkdir()
         yield folder
-        require_free(name, parent)  # somebody else may have been quicker
+        require_new_name(name, parent=parent)  # somebody else may have been quicker
         os.rename(folder, parent / name)  # noqa: PTH104  Path.rename replaces an empty folder
     finally:
         shutil.rmtree(hidden, ignore_errors=True)
 
 
-def require_free(name: str, parent: Path) -> None:
-    """Refuse the name of a town that is there already.
+def require_new_name(name: str, *, parent: Path = library.OWN_TOWNS) -> None:
+    """Refuse a name that no new town can have.
+
+    Args:
+        name: Name of the town.
+        parent: Where its folder will be.
 
     Raises:
+        ConfigError: If the name is none for a town.
         NameTakenError: If there is a town of that name, or a folder in its place.
     """
+    require(
+        _NAME.fullmatch(name) is not None,
+        f"A town cannot be called '{name}'; expected a small letter, then small letters, digits, '-' and '_'.",
+    )
     if name in library.town_names():
         raise NameTakenError(
             f"There is a town '{name}' already, in '{library.folder_of(name)}'. Choose another name, or remove "

@@ -147,6 +147,7 @@ def test_a_sloped_map_is_refused_unless_it_is_flattened(workplace: Path, small_m
         (("check", "town1"), "Did you mean 'town01'?"),
         (("export", "town01", "good.xodr"), "'good.xodr' is there already"),
         (("export", "town01", "town.pdf"), "expected a file that ends in .xodr"),
+        (("show", "town01", "--picture", "town.jpg"), "expected a file that ends in .png"),
     ],
 )
 def test_mistakes_are_told_in_one_line_and_leave_nothing_behind(
@@ -175,6 +176,22 @@ def test_an_import_that_fails_half_way_leaves_nothing_behind(
     assert invoke(*SMALL).exit_code == 130
     assert written(workplace) == {}
     assert list((workplace / "towns").iterdir()) == []
+
+
+def test_a_map_of_a_survey_is_moved_and_names_are_shown_as_they_are(
+    workplace: Path, small_map: bytes
+) -> None:
+    far = re.sub(rb' x="([-0-9.e]+)"', lambda x: b' x="%r"' % (float(x[1]) + 692e3), small_map)
+    Path("small[red].XODR").write_bytes(far)
+    shown = run("towns", "check", "small[red].XODR")
+    assert "small[red].XODR" in shown
+    shown = run("towns", "import", "small[red].XODR", "--name", "far")
+    assert "small[red].XODR: OpenDRIVE" in shown
+    x, y = library.load_settings("far").origin
+    assert x == pytest.approx(692e3, abs=1000.0)
+    west, _, east, _ = library.load("far").bounds
+    assert max(abs(west), abs(east)) < 1000.0
+    assert y % 100.0 == 0.0
 
 
 def test_settings_of_a_town_are_read_again_when_they_change(workplace: Path) -> None:

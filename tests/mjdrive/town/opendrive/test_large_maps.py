@@ -9,7 +9,7 @@ import pytest
 
 # In a process of its own: without shape checks, and with a memory of its own to measure.
 IMPORT = """
-import resource, sys, time
+import re, sys, time
 from pathlib import Path
 from mjdrive.town import opendrive
 from mjdrive.town.network import build_town
@@ -17,7 +17,9 @@ from mjdrive.town.settings import LightTiming
 
 road_map = opendrive.read(Path(sys.argv[1]))
 build_town(road_map, name="large", timing=LightTiming(), digest="")
-print(time.process_time(), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+# Not ru_maxrss: a new process begins with the peak of the one that started it.
+peak = re.search(r"VmHWM:\\s+(\\d+) kB", Path("/proc/self/status").read_text())[1]
+print(time.process_time(), peak)
 """
 
 
@@ -45,6 +47,7 @@ def _large_map(document: bytes) -> bytes:
 
 
 @pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="peak memory is read the way Linux tells it")
 def test_ten_megabytes_are_imported_in_20_seconds_and_1_gigabyte(
     tmp_path: Path, map_bytes: bytes
 ) -> None:
