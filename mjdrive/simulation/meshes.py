@@ -11,6 +11,7 @@ from jaxtyping import Float
 from mjdrive.simulation.blocks import SHOWN_GROUP
 
 DECIMALS = 3  # of vertices and texture: millimetres keep scene.xml short and free of rounding noise
+SMALLEST_AREA = 1e-9  # MuJoCo refuses meshes without area [m^2]
 
 
 class Shell:
@@ -125,16 +126,23 @@ class Shell:
             name: Of the mesh.
 
         Returns:
-            Whether there was any face to make a mesh of.
+            Whether there was any face with an area to make a mesh of.
         """
         if not self._faces:
             return False
+        vertices = np.concatenate(self._vertices).round(self._decimals)
+        faces = np.concatenate(self._faces)
+        if _area(vertices, faces) < SMALLEST_AREA:
+            return False
         texture = np.concatenate(self._texture)
         assert len(texture) in (0, self._num_vertices), "texture on some faces only"
+        if self._num_vertices == 3:
+            # MuJoCo wants four vertices: a single triangle has its last one twice.
+            vertices, texture = (np.concatenate([rows, rows[-1:]]) for rows in (vertices, texture))
         spec.add_mesh(
             name=name,
-            uservert=np.concatenate(self._vertices).round(self._decimals).ravel().tolist(),
-            userface=np.concatenate(self._faces).ravel().tolist(),
+            uservert=vertices.ravel().tolist(),
+            userface=faces.ravel().tolist(),
             usertexcoord=texture.round(DECIMALS).ravel().tolist(),
             inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
         )
@@ -150,6 +158,12 @@ class Shell:
         """
         if self.mesh(spec, name):
             show_mesh(spec, name, mesh=name, material=material)
+
+
+def _area(vertices: Float[np.ndarray, "N 3"], faces: np.ndarray) -> float:
+    """Area of all triangles together [m^2]."""
+    first, second, third = vertices[faces].swapaxes(0, 1)
+    return float(0.5 * np.linalg.norm(np.cross(second - first, third - first), axis=1).sum())
 
 
 def _at(points: Float[np.ndarray, "N 2"], height: float) -> Float[np.ndarray, "N 3"]:

@@ -59,11 +59,10 @@ class Simulation:
     ) -> None:
         self.town = town
         self.config = config or SimulationConfig()
-        self.model = scene.build_scene(
-            town,
-            settings or library.load_settings(town.name),
-            timestep=self.config.timestep,
-        ).compile()
+        spec = scene.build_scene(
+            town, settings or library.load_settings(town.name), timestep=self.config.timestep
+        )
+        self.model = scene.compile_scene(spec)
         self.data = mujoco.MjData(self.model)
         self.car = Car(self.model, self.data)
         self._projector = BevProjector(town, control_interval=self.config.control_interval)

@@ -42,7 +42,7 @@ def build_town(road_map: RoadMap, *, name: str, timing: LightTiming, digest: str
 
     Raises:
         TownFormatError: If a road, junction, signal or controller is named that the map does not have, if no lane is
-            driven, or if a lane runs beyond all bounds.
+            driven or none is wider than 0, or if a lane runs beyond all bounds.
     """
     links = Links(road_map)
     if not links.following:
@@ -51,6 +51,10 @@ def build_town(road_map: RoadMap, *, name: str, timing: LightTiming, digest: str
             f"{', '.join(sorted(DRIVEN_LANE_TYPES))}."
         )
     lanes = {key.name: _lane(road_map, links, key) for key in links.following}
+    if not any(lane.width > 0.0 for lane in lanes.values()):
+        raise TownFormatError(
+            f"Map '{road_map.name}' has only lanes that are 0 m wide; expected lanes that a car fits into."
+        )
     lights = build_lights(road_map, links, lanes, timing)
     for light in lights.values():
         if lanes[light.lane].light is None:

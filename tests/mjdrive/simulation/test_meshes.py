@@ -73,3 +73,19 @@ def test_nothing_to_show_makes_no_mesh():
     shell.show(spec, "none", material="none")
     assert not spec.meshes
     assert not spec.geoms
+
+
+def test_a_single_triangle_can_be_shown():
+    shell = Shell()
+    shell.polygon(np.array([[0.0, 0.0, 1.0], [2.0, 0.0, 1.0], [0.0, 1.0, 1.0]]))
+    spec = mujoco.MjSpec()
+    shell.show(spec, "m", material="")
+    assert spec.compile().ngeom == 1
+
+
+def test_faces_without_area_are_not_shown():
+    shell = Shell()
+    shell.fence(np.array([[0.0, 0.0], [0.0001, 0.0], [0.0002, 0.0]]), bottom=0.0, top=1.0)
+    spec = mujoco.MjSpec()
+    shell.show(spec, "m", material="")
+    assert spec.compile().ngeom == 0

@@ -213,6 +213,13 @@ def test_street_without_lights_signs_and_paint_can_be_built():
     assert not any(name.startswith(("lamp", "pole", "sign", "marking", "stop")) for name in names)
 
 
+def test_scene_that_mujoco_refuses_names_the_town():
+    spec = build_scene(bare_street(), TownSettings(), timestep=TIMESTEP)
+    spec.worldbody.add_geom(name="odd", type=mujoco.mjtGeom.mjGEOM_BOX, size=[0.0, 0.0, 0.0])
+    with pytest.raises(TownFormatError, match="cannot build town 'bare'.*odd"):
+        compile_scene(spec)
+
+
 def test_objects_of_the_map_are_obstacles_and_paint_is_not():
     square = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
     things = (

@@ -1,3 +1,4 @@
+import re
 from collections import Counter
 from dataclasses import replace
 
@@ -160,6 +161,12 @@ def test_a_map_without_driving_lanes_is_refused(map_bytes: bytes) -> None:
     walkway = opendrive.parse(map_bytes.replace(b'"driving"', b'"sidewalk"'), source="test")
     with pytest.raises(TownFormatError, match="no driving lane"):
         _build(walkway)
+
+
+def test_a_map_whose_lanes_have_no_width_is_refused(map_bytes: bytes) -> None:
+    flat = re.sub(rb'(<width [^>]*?\ba=)"[^"]*"', rb'\1"0"', map_bytes)
+    with pytest.raises(TownFormatError, match="only lanes that are 0 m wide"):
+        _build(opendrive.parse(flat, source="test"))
 
 
 @pytest.mark.parametrize("where", [1e8, 1e300])
