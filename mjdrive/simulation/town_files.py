@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 
+from mjdrive.bev.rasters import require_drawable
 from mjdrive.config import SimulationConfig, write_json
 from mjdrive.datatypes import Town
 from mjdrive.errors import ConfigError, NameTakenError
@@ -50,6 +51,7 @@ def new_town(
     with new_town_folder(name) as folder:
         on_stage("routes")
         town = fill(folder, document, road_map, settings, seed=seed)
+        require_drawable(town)
         on_stage("scene")
         write_scene(town, settings, folder / SCENE_FILE)
         on_stage("picture")
