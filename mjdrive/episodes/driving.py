@@ -35,7 +35,7 @@ def drive(
     Returns:
         The drive.
     """
-    lane, station = routing.random_start(simulation.town, np.random.default_rng(seed))
+    lane, station = _start(simulation, PidConfig(), num_steps=num_steps, seed=seed)
     simulation.reset(lane=lane, station=station, seed=seed)
     return rollout(
         simulation,
@@ -57,7 +57,7 @@ def drive_expert(
     on_step: Callable[[int], None] | None = None,
     metadata: Mapping[str, str] | None = None,
 ) -> Episode:
-    """Let the PID expert take random turns, from the place where `drive` starts with the same seed.
+    """Let the PID expert take random turns, from the place where `drive` starts with the same seed and steps.
 
     Args:
         simulation: World to drive in; it is reset.
@@ -72,10 +72,10 @@ def drive_expert(
     """
     config = config or PidConfig()
     town, interval = simulation.town, simulation.config.control_interval
-    lane, station = routing.random_start(town, np.random.default_rng(seed))
+    lane, station = _start(simulation, config, num_steps=num_steps, seed=seed)
     # Turns have a stream of their own, so that they do not hang on how a start is drawn.
     turns = np.random.default_rng([seed, 1])
-    length = config.target_speed * num_steps * interval + 50.0
+    length = _way(simulation, config, num_steps)
     route = routing.random_route(town, lane=lane, station=station, length=length, rng=turns)
     simulation.reset(lane=lane, station=station, seed=seed)
     return rollout(
@@ -87,3 +87,16 @@ def drive_expert(
         on_step=on_step,
         metadata=metadata,
     )
+
+
+def _start(
+    simulation: Simulation, config: PidConfig, *, num_steps: int, seed: int
+) -> tuple[str, float]:
+    """Draw a place from which the lanes lead on for as long as the drive, where the town has any."""
+    length = _way(simulation, config, num_steps)
+    return routing.random_start(simulation.town, np.random.default_rng(seed), length=length)
+
+
+def _way(simulation: Simulation, config: PidConfig, num_steps: int) -> float:
+    """Length of a route that the expert does not come to the end of [m]."""
+    return config.target_speed * num_steps * simulation.config.control_interval + 50.0

@@ -129,8 +129,8 @@ def random_route(
     left = length - (lane_length(town.lanes[lane]) - station)
     if ahead[lane] < left:
         raise RouteError(
-            f"From station {station} m of lane '{lane}' the lanes lead on for {length - left + ahead[lane]:.1f} m; "
-            f"expected {length} m."
+            f"From station {station:.1f} m of lane '{lane}' the lanes lead on for {length - left + ahead[lane]:.1f} m; "
+            f"expected {length:.1f} m. Drive less far (fewer --steps) or start elsewhere (another --seed)."
         )
     chain = [lane]
     while left > 0.0:
@@ -144,14 +144,16 @@ def random_route(
     return lay(town, chain, start=station, end=lane_length(town.lanes[chain[-1]]) + left)
 
 
-def random_start(town: Town, rng: np.random.Generator) -> tuple[str, float]:
+def random_start(town: Town, rng: np.random.Generator, *, length: float = 0.0) -> tuple[str, float]:
     """Draw a place to start, uniform over the lanes outside junctions, 15 m or more before their ends.
 
-    Lanes from which every way comes to a dead end are left out, unless the town has no others.
+    Lanes from which every way comes to a dead end are left out, unless the town has no others. Then places from
+    which some way is long enough are taken, where there are any.
 
     Args:
         town: The town.
         rng: Source of the draw.
+        length: How far the way onward should be [m].
 
     Returns:
         Name of the lane and station on it [m].
@@ -159,7 +161,7 @@ def random_start(town: Town, rng: np.random.Generator) -> tuple[str, float]:
     Raises:
         RouteError: If no lane is long enough.
     """
-    names, room = _starts(town)
+    names, room = _starts(town, length)
     if not names:
         raise RouteError(
             f"Town '{town.name}' has no lane outside junctions longer than {_CLEAR_BEFORE_JUNCTION} m."
@@ -171,16 +173,22 @@ def random_start(town: Town, rng: np.random.Generator) -> tuple[str, float]:
 
 
 @lru_cache(maxsize=4)
-def _starts(town: Town) -> tuple[tuple[str, ...], Float[np.ndarray, " N"]]:
-    """Lanes to start on, and how much of each is far enough from its end [m]."""
-    room = {
+def _starts(town: Town, length: float) -> tuple[tuple[str, ...], Float[np.ndarray, " N"]]:
+    """Lanes to start on, and how much of each from its start on will do [m]."""
+    clear = {
         name: lane_length(lane) - _CLEAR_BEFORE_JUNCTION
         for name, lane in town.lanes.items()
         if lane.junction is None and lane_length(lane) > _CLEAR_BEFORE_JUNCTION
     }
-    if room:
-        ahead = onward(town)
-        room = {name: length for name, length in room.items() if np.isinf(ahead[name])} or room
+    ahead = onward(town) if clear else {}
+    endless = {name: room for name, room in clear.items() if np.isinf(ahead[name])}
+    reach = {name: lane_length(town.lanes[name]) + ahead[name] - length for name in clear}
+    enough = {
+        name: min(room, reach[name] - _ROUNDING)
+        for name, room in clear.items()
+        if reach[name] > _ROUNDING
+    }
+    room = endless or enough or clear
     return tuple(room), np.array(list(room.values()))
 
 

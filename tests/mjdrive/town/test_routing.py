@@ -118,6 +118,52 @@ def test_random_starts_keep_clear_of_junctions(seed: int) -> None:
     assert 0.0 <= station <= lane_length(town.lanes[name]) - 15.0
 
 
+@pytest.mark.parametrize(
+    ("name", "first", "second"),
+    [
+        ("town01", ("12/0/-1", 48.893), ("10/0/1", 20.268)),
+        ("town02", ("12/0/-1", 75.236), ("12/0/1", 46.727)),
+        ("town03", ("12/0/-1", 16.971), ("11/0/-1", 15.32)),
+    ],
+)
+@pytest.mark.parametrize("length", [0.0, 5000.0])
+def test_seeds_keep_their_starts(
+    name: str, first: tuple[str, float], second: tuple[str, float], length: float
+) -> None:
+    town = library.load(name)
+    for seed, (lane, station) in enumerate([first, second]):
+        start = routing.random_start(town, np.random.default_rng(seed), length=length)
+        assert start == (lane, pytest.approx(station, abs=1e-3))
+
+
+def _open_street(road_map: RoadMap) -> Town:
+    street = replace(road_map.roads["7"], predecessor=None, successor=None)
+    alone = RoadMap("street", {"7": street})
+    return build_town(alone, name="street", timing=LightTiming(), digest="")
+
+
+@given(seed=st.integers(0, 10_000), share=st.floats(0.05, 0.99))
+def test_in_a_town_with_open_ends_drives_start_where_the_way_is_long_enough(
+    road_map: RoadMap, seed: int, share: float
+) -> None:
+    town = _open_street(road_map)
+    length = share * max(map(lane_length, town.lanes.values()))
+    rng = np.random.default_rng(seed)
+    lane, station = routing.random_start(town, rng, length=length)
+    route = routing.random_route(town, lane=lane, station=station, length=length, rng=rng)
+    assert route.station[-1] == pytest.approx(length)
+
+
+def test_where_no_way_is_long_enough_the_error_says_what_to_do(road_map: RoadMap) -> None:
+    town = _open_street(road_map)
+    rng = np.random.default_rng(0)
+    lane, station = routing.random_start(town, rng, length=1e4)
+    with pytest.raises(
+        RouteError, match=r"From station \d+\.\d m .* 10000\.0 m\. .*--steps.*--seed"
+    ):
+        routing.random_route(town, lane=lane, station=station, length=1e4, rng=rng)
+
+
 @given(seed=st.integers(0, 10_000))
 def test_a_place_on_a_lane_is_found_again_with_its_heading(seed: int) -> None:
     town = library.load("town01")
