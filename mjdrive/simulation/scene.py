@@ -73,8 +73,8 @@ def compile_scene(spec: mujoco.MjSpec) -> mujoco.MjModel:
     except ValueError as error:
         reason = " ".join(str(error).split())
         raise TownFormatError(
-            f"MuJoCo cannot build town '{spec.modelname}': {reason}. Expected lanes and objects of usual sizes; check "
-            "the map that it was read from."
+            f"MuJoCo cannot build town '{spec.modelname}': {reason}. Expected lanes and objects of usual sizes near "
+            "the origin; check the map that it was read from."
         ) from error
 
 

@@ -12,7 +12,8 @@ import shapely
 from mjdrive import geometry
 from mjdrive.config import SimulationConfig
 from mjdrive.datatypes import Action, Lane, StaticObject, Town
-from mjdrive.simulation.scene import build_scene, scene_xml
+from mjdrive.errors import TownFormatError
+from mjdrive.simulation.scene import build_scene, compile_scene, scene_xml
 from mjdrive.town import library, surface
 from mjdrive.town.scenery.blocks import Block
 from mjdrive.town.settings import TownSettings
@@ -216,7 +217,7 @@ def test_street_without_lights_signs_and_paint_can_be_built():
 def test_scene_that_mujoco_refuses_names_the_town():
     spec = build_scene(bare_street(), TownSettings(), timestep=TIMESTEP)
     spec.worldbody.add_geom(name="odd", type=mujoco.mjtGeom.mjGEOM_BOX, size=[0.0, 0.0, 0.0])
-    with pytest.raises(TownFormatError, match="cannot build town 'bare'.*odd"):
+    with pytest.raises(TownFormatError, match=r"cannot build town 'bare'.*odd"):
         compile_scene(spec)
 
 
