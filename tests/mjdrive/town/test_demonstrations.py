@@ -1,5 +1,5 @@
 from collections import Counter
-from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -9,7 +9,6 @@ from mjdrive.errors import RouteError
 from mjdrive.town import library, routing
 from mjdrive.town.demonstrations import demonstration_routes
 from mjdrive.town.network import build_town
-from mjdrive.town.opendrive.road_map import RoadMap
 from mjdrive.town.settings import LightTiming
 
 LENGTH = 500.0
@@ -65,9 +64,37 @@ def test_the_same_generator_gives_the_same_routes(ladder: Town) -> None:
     assert first == second
 
 
-def test_a_town_that_ends_too_soon_has_no_routes(road_map: RoadMap) -> None:
-    street = replace(road_map.roads["7"], predecessor=None, successor=None)
-    alone = RoadMap("street", {"7": street})
-    town = build_town(alone, name="street", timing=LightTiming(), digest="")
-    with pytest.raises(RouteError, match="no route of about 500 m in town 'street'"):
-        demonstration_routes(town, num_routes=1, length=500.0, rng=np.random.default_rng(0))
+def test_a_ring_is_driven_round_and_round(maker: Any) -> None:
+    ring = maker.ring("1", 50.0, (0.0, 2.0 * np.pi), links=("1:end", "1:start"))
+    town = build_town(maker.map([ring]), name="ring", timing=LightTiming(), digest="")
+    rng = np.random.default_rng(0)
+    for waypoints in demonstration_routes(town, num_routes=5, length=800.0, rng=rng).values():
+        route = routing.route_through(town, np.array(waypoints))
+        assert route.station[-1] == pytest.approx(800.0, rel=1 / 6, abs=1.0)
+        assert set(route.lanes) == {"1/0/-1"}
+        assert len(route.lanes) >= 3
+
+
+def _street(maker: Any, length: float) -> Town:
+    road = maker.road("1", ((0.0, 0.0), (length, 0.0)), maker.section(1, -1))
+    return build_town(maker.map([road]), name="street", timing=LightTiming(), digest="")
+
+
+@pytest.mark.parametrize(("end", "given"), [(700.0, 400.0), (300.0, 200.0)])
+def test_a_town_that_ends_soon_has_shorter_routes(maker: Any, end: float, given: float) -> None:
+    town = _street(maker, end)
+    rng = np.random.default_rng(0)
+    routes = demonstration_routes(town, num_routes=3, length=900.0, rng=rng)
+    assert len(routes) == 3
+    for waypoints in routes.values():
+        route = routing.route_through(town, np.array(waypoints))
+        assert route.station[-1] == pytest.approx(given, rel=1 / 6, abs=1.0)
+
+
+def test_a_town_that_ends_too_soon_has_no_routes(maker: Any) -> None:
+    with pytest.raises(
+        RouteError, match="no route of about 500 m in town 'street', nor one of 200"
+    ):
+        demonstration_routes(
+            _street(maker, 100.0), num_routes=1, length=500.0, rng=np.random.default_rng(0)
+        )
