@@ -8,7 +8,7 @@ import shapely
 from mjdrive.datatypes import Lane, Town
 from mjdrive.geometry import curvatures, headings, resample, stations, wrap_angle
 from mjdrive.town.findings import Finding, FindingKind, Severity
-from mjdrive.town.lane_graph import lane_length, round_trips
+from mjdrive.town.lane_graph import lane_length, onward, round_trips
 from mjdrive.town.lights import light_signals
 from mjdrive.town.obstructions import obstructions
 from mjdrive.town.opendrive.road_map import RoadMap
@@ -46,6 +46,7 @@ def check(town: Town, road_map: RoadMap | None = None) -> tuple[Finding, ...]:
     found += _on_lanes(town)
     found += _crossed_stop_lines(town)
     found += _islands(town)
+    found += _short_drives(town)
     if road_map is not None:
         found += _idle_lights(town, road_map)
     kinds = list(FindingKind)
@@ -203,6 +204,19 @@ def _islands(town: Town) -> list[Finding]:
         )
         for part in parts[1:]
     ]
+
+
+def _short_drives(town: Town) -> list[Finding]:
+    """Tell where every drive comes to an end."""
+    if round_trips(town):
+        return []
+    ahead = onward(town)
+    longest = max(lane_length(lane) + ahead[name] for name, lane in town.lanes.items())
+    text = (
+        f"No lane lies on a round trip: every drive comes to an end, after {longest:.0f} m at most. Routes for "
+        "demonstrations are short, or none."
+    )
+    return [Finding(FindingKind.SHORT_DRIVES, Severity.WARNING, town.name, text)]
 
 
 def _idle_lights(town: Town, road_map: RoadMap) -> list[Finding]:

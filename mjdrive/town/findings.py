@@ -20,6 +20,7 @@ class FindingKind(StrEnum):
     ON_LANE = "thing on a lane"
     IDLE_LIGHT = "light that controls nothing"
     CROSSED_STOP_LINES = "stop lines that cross"
+    SHORT_DRIVES = "short drives only"
     KINK = "kink"
     UNREACHED = "lane that nothing leads to"
     NARROW = "narrow lane"

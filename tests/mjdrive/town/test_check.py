@@ -66,9 +66,12 @@ def test_both_ends_of_a_street_that_leads_nowhere_are_found(maker: Any) -> None:
     found = check(_build(_street(maker)))
     assert [(finding.kind, finding.where) for finding in found] == [
         (FindingKind.DEAD_END, "2/0/-1"),
+        (FindingKind.SHORT_DRIVES, "small"),
         (FindingKind.UNREACHED, "1/0/-1"),
     ]
     assert found[0].breaks_a_drive
+    assert not found[1].breaks_a_drive
+    assert "after 90 m at most" in found[1].text
 
 
 def test_a_lane_that_ends_beside_one_that_goes_on_is_no_error(maker: Any) -> None:
