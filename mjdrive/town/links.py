@@ -60,8 +60,7 @@ class Links:
         self._ways: dict[tuple[str, str], list[Connection]] = defaultdict(list)
         for junction in road_map.junctions.values():
             for connection in junction.connections:
-                for road in {connection.incoming, connection.connecting}:
-                    self._ways[junction.id, road].append(connection)
+                self._ways[junction.id, connection.incoming].append(connection)
         driven = [key for key in self._records if not self._is_empty(key)]
         self.following = {key: self._successors(key) for key in driven}
         self.before: dict[LaneKey, list[LaneKey]] = {key: [] for key in driven}
@@ -148,26 +147,13 @@ class Links:
                 f"Road '{key.road}' leads to junction '{junction}', which the map does not have."
             )
         who = f"Junction '{junction}' leads"
-        found = []
-        for connection in self._ways[junction, key.road]:
-            for here, there in connection.lane_links:
-                if connection.incoming == key.road and here == key.lane:
-                    found += self._at_contact(connection.connecting, connection.contact, there, who)
-                # A direct junction has no roads of its own; its links hold both ways.
-                if connection.connecting == key.road and there == key.lane:
-                    found += self._back(connection.incoming, junction, here, who)
-        return found
-
-    def _back(self, road_id: str, junction: str, lane: int, who: str) -> list[LaneKey]:
-        """Enter the incoming road of a direct junction at the end that meets the junction."""
-        road = self._road(road_id, who)
-        ends = {"start": road.predecessor, "end": road.successor}
-        touching = [
-            end
-            for end, link in ends.items()
-            if link and (link.kind, link.id) == ("junction", junction)
+        return [
+            following
+            for connection in self._ways[junction, key.road]
+            for here, there in connection.lane_links
+            if here == key.lane
+            for following in self._at_contact(connection.connecting, connection.contact, there, who)
         ]
-        return [key for end in touching for key in self._at_contact(road_id, end, lane, who)]
 
     def _at_contact(self, road_id: str, contact: str, lane: int, who: str) -> list[LaneKey]:
         last = len(self._road(road_id, who).sections) - 1

@@ -119,12 +119,15 @@ def test_a_link_to_a_lane_of_the_other_direction_is_no_way(maker: Any) -> None:
 
 
 def test_a_direct_junction_leads_on_at_once_and_back(maker: Any) -> None:
-    """A road that splits into two, whose lanes for the way back join again, written once for both directions."""
+    """A road that splits into two, whose lanes for the way back join again."""
     main = maker.road("1", ((0, 0), (50, 0)), maker.section(1, -1, -2), links=("", "junction:D"))
     on = maker.road("2", ((50, 0), (99, 0)), maker.section(1, -1), links=("junction:D", ""))
     ramp = maker.road("3", ((50, -3.5), (99, -20)), maker.section(-1), links=("junction:D", ""))
     split = maker.junction(
-        "D", ("1", "2", "start", (-1, -1), (1, 1)), ("1", "3", "start", (-2, -1))
+        "D",
+        ("1", "2", "start", (-1, -1), (1, 1)),
+        ("1", "3", "start", (-2, -1)),
+        ("2", "1", "end", (-1, -1), (1, 1)),
     )
     lanes = _build(maker.map([main, on, ramp], [split])).lanes
     assert lanes["1/0/-1"].successors == ("2/0/-1",)
