@@ -5,8 +5,12 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
+from mjdrive.errors import TownFormatError
 from mjdrive.town.opendrive.road_map import LaneRecord, Road
 from mjdrive.town.opendrive.road_shapes import Cubic
+
+WIDEST_LANE = 100.0
+"""Widest lane [m]."""
 
 _NOTHING = Cubic(0.0, 0.0)
 
@@ -52,6 +56,9 @@ def lane_edges(
 
     Returns:
         t of the edge towards lane 0 and t of the other edge, positive to the left [m].
+
+    Raises:
+        TownFormatError: If the lane or one between it and lane 0 is wider than `WIDEST_LANE`.
     """
     section = road.sections[section_index]
     inner = outer = evaluate(road.lane_offsets, s)
@@ -60,6 +67,11 @@ def lane_edges(
         lane = section.lane(number)
         assert lane is not None, f"road '{road.id}' has no lane {number} in section {section_index}"
         inner, outer = outer, _outer_edge(lane, side, outer, s - section.s)
+        widest = np.abs(outer - inner).max(initial=0.0)
+        if widest > WIDEST_LANE:
+            raise TownFormatError(
+                f"Lane {number} of road '{road.id}' is up to {widest:g} m wide; expected at most {WIDEST_LANE:g} m."
+            )
     return inner, outer
 
 

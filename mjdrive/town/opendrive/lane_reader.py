@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
+from mjdrive.town.opendrive.cross_section import WIDEST_LANE
 from mjdrive.town.opendrive.lane_sides import carry_over
 from mjdrive.town.opendrive.road_map import LaneRecord, LaneSection
 from mjdrive.town.opendrive.road_marks import read_marks
@@ -49,10 +50,12 @@ def read_sections(fields: XmlFields, road: Element, length: float) -> tuple[Lane
         The sections in order; each holds the lanes of both sides.
 
     Raises:
-        TownFormatError: If they are out of order, empty, or number their lanes with gaps.
+        TownFormatError: If they are out of order, empty, number their lanes with gaps, or have a lane wider than
+            `WIDEST_LANE`.
     """
     elements = fields.some(road, "lanes", "laneSection")
     sections: list[LaneSection] = []
+    holders: list[Element] = []
     for element in elements:
         is_single = fields.optional(element, "singleSide").lower() in ("true", "1")
         section = _read_section(fields, element)
@@ -60,6 +63,8 @@ def read_sections(fields: XmlFields, road: Element, length: float) -> tuple[Lane
             carry_over(sections, section)
         else:
             sections.append(section)
+        if len(sections) > len(holders):
+            holders.append(element)
     if abs(sections[0].s) > _SHORTEST_SECTION:
         fields.fail(elements[0], f"starts at s={sections[0].s:g}; expected 0.")
     starts = [*(section.s for section in sections), length]
@@ -68,7 +73,8 @@ def read_sections(fields: XmlFields, road: Element, length: float) -> tuple[Lane
             elements[-1].getparent(),
             "has a lane section without length, out of order or behind the end of the road; expected rising s.",
         )
-    _note_negative_widths(fields, sections, length)
+    for element, section, end in zip(holders, sections, starts[1:], strict=True):
+        _check_widths(fields, element, section, end - section.s)
     return tuple(sections)
 
 
@@ -135,26 +141,32 @@ def _read_cubics(fields: XmlFields, elements: Iterable[Element], start: str) -> 
     return tuple(cubics)
 
 
-def _note_negative_widths(
-    fields: XmlFields, sections: Sequence[LaneSection], length: float
-) -> None:
-    ends = [*(section.s for section in sections[1:]), length]
-    for section, end in zip(sections, ends, strict=True):
-        for lane in section.lanes:
-            if _smallest(lane.widths, end - section.s) < -_ALLOWED_DIP:
-                fields.note("lane with a negative width, which counts as 0")
+def _check_widths(fields: XmlFields, element: Element, section: LaneSection, length: float) -> None:
+    for lane in section.lanes:
+        narrowest, widest = _range(lane.widths, length)
+        if narrowest < -_ALLOWED_DIP:
+            fields.note("lane with a negative width, which counts as 0")
+        if lane.id and widest > WIDEST_LANE:
+            fields.fail(
+                element,
+                f"has lane {lane.id} up to {widest:g} m wide; expected at most {WIDEST_LANE:g} m.",
+            )
 
 
-def _smallest(cubics: Sequence[Cubic], end: float) -> float:
-    """Smallest value of cubics that follow each other, or 0 [m]."""
-    ends = [*(cubic.start for cubic in cubics[1:]), end]
-    smallest = 0.0
-    for cubic, stop in zip(cubics, ends, strict=False):
-        span = max(stop - cubic.start, 0.0)
+def _range(cubics: Sequence[Cubic], end: float) -> tuple[float, float]:
+    """Smallest and largest value of cubics that follow each other, and 0 [m]."""
+    stops = [*(cubic.start for cubic in cubics[1:]), end]
+    values = [0.0]
+    for cubic, stop in zip(cubics, stops, strict=False):
+        span = min(stop, end) - cubic.start
+        if span < 0.0:
+            continue
         turns = _real_roots(3.0 * cubic.d, 2.0 * cubic.c, cubic.b)
-        for ds in (0.0, span, *(turn for turn in turns if 0.0 < turn < span)):
-            smallest = min(smallest, cubic.a + ds * (cubic.b + ds * (cubic.c + ds * cubic.d)))
-    return smallest
+        values += [
+            cubic.a + ds * (cubic.b + ds * (cubic.c + ds * cubic.d))
+            for ds in (0.0, span, *(turn for turn in turns if 0.0 < turn < span))
+        ]
+    return min(values), max(values)
 
 
 def _real_roots(a: float, b: float, c: float) -> tuple[float, ...]:

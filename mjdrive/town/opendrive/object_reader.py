@@ -3,6 +3,8 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from mjdrive.geometry import world_from_vehicle
 from mjdrive.town.opendrive.object_outlines import (
     Size,
@@ -17,6 +19,9 @@ from mjdrive.town.opendrive.road_map import ObjectRecord
 from mjdrive.town.opendrive.road_shapes import Piece
 from mjdrive.town.opendrive.signal_reader import read_station
 from mjdrive.town.opendrive.xml_fields import Element, XmlFields
+
+LARGEST_OBJECT = 1000.0
+"""Largest height of an object, and its largest extent in x and y; one along a road is that much longer than it [m]."""
 
 
 def read_objects(
@@ -34,11 +39,13 @@ def read_objects(
         The objects; those without extent have an empty outline.
 
     Raises:
-        TownFormatError: If a value is missing or is no number.
+        TownFormatError: If a value is missing or is no number, or if an object is larger than `LARGEST_OBJECT`.
     """
     found: list[ObjectRecord] = []
     for element in fields.each(road, "objects", "object"):
-        found.extend(_read_object(fields, element, length, pieces))
+        for thing in _read_object(fields, element, length, pieces):
+            _require_bounded(fields, element, thing, length)
+            found.append(thing)
     for thing in found:
         if not thing.outline:
             fields.note(f"object of type '{thing.type}' without extent")
@@ -72,3 +79,15 @@ def _read_object(
     local = local_corners(fields, element, size)
     corners = world_from_vehicle(local, x=x, y=y, yaw=yaw + thing.heading)
     yield replace(thing, outline=counter_clockwise(corners))
+
+
+def _require_bounded(
+    fields: XmlFields, element: Element, thing: ObjectRecord, length: float
+) -> None:
+    along = next(element.iter("cornerRoad", "repeat"), None) is not None
+    largest = LARGEST_OBJECT + (length if along else 0.0)
+    extent = float(np.ptp(np.array(thing.outline), axis=0).max()) if thing.outline else 0.0
+    if extent > largest:
+        fields.fail(element, f"covers {extent:g} m of ground; expected at most {largest:g} m.")
+    if thing.height > LARGEST_OBJECT:
+        fields.fail(element, f"is {thing.height:g} m high; expected at most {LARGEST_OBJECT:g} m.")

@@ -187,8 +187,17 @@ def test_a_jump_in_the_lane_offset_ends_the_search_for_shorter_steps() -> None:
 
 def test_a_line_that_swings_too_wildly_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(lane_geometry, "_MOST_POINTS", 3000)
-    swinging = tuple(Cubic(0.1 * n, 3.0, 1e3 * (-1) ** n) for n in range(200))
+    swinging = tuple(Cubic(0.1 * n, 3.0, 9e2 * (-1) ** n) for n in range(200))
     lanes = (LaneRecord(0, "none"), LaneRecord(-1, "driving", swinging))
     road = replace(_road(Piece(0.0, 0.0, 0.0, 0.0, 20.0)), sections=(LaneSection(0.0, lanes),))
     with pytest.raises(TownFormatError, match=r"Lane -1 of road '1' needs more than 3000 points"):
+        lane_centre(road, 0, -1)
+
+
+def test_a_border_too_far_out_is_refused() -> None:
+    lanes = (LaneRecord(0, "none"), LaneRecord(-1, "driving", (), borders=(Cubic(0.0, -150.0),)))
+    road = replace(
+        _road(Piece(0.0, 0.0, 0.0, 0.0, 9.0, Line())), sections=(LaneSection(0.0, lanes),)
+    )
+    with pytest.raises(TownFormatError, match="Lane -1 of road '1' is up to 150 m wide"):
         lane_centre(road, 0, -1)

@@ -113,3 +113,23 @@ def test_what_is_out_of_order_is_refused(
     assert old in rich_bytes
     with pytest.raises(TownFormatError, match=r"map:\d+, road '\d': " + re.escape(complaint)):
         opendrive.parse(rich_bytes.replace(old, new, 1), source="map")
+
+
+@pytest.mark.parametrize(
+    "width", ['a="1e9" b="0" c="0" d="0"', 'a="3" b="0" c="0" d="7"', 'a="0" b="90" c="-1.5" d="0"']
+)
+def test_a_lane_wider_than_any_is_refused_with_its_line(map_bytes: bytes, width: str) -> None:
+    wide = f'<width sOffset="0" {width}/>'.encode()
+    data, count = re.subn(rb"<width [^/]*/>", wide, map_bytes, count=1)
+    assert count
+    with pytest.raises(
+        TownFormatError, match=r"map:\d+, road '\d+': <laneSection> has lane -?\d up"
+    ):
+        opendrive.parse(data, source="map")
+
+
+def test_a_width_behind_the_end_of_its_section_says_nothing(map_bytes: bytes) -> None:
+    behind = b'<width sOffset="5000" a="1e9" b="0" c="0" d="0"/>'
+    data, count = re.subn(rb"(<width [^/]*/>)", rb"\1" + behind, map_bytes, count=1)
+    assert count
+    opendrive.parse(data, source="map")

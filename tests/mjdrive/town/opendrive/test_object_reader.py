@@ -1,4 +1,5 @@
 import math
+import re
 
 import numpy as np
 import pytest
@@ -103,3 +104,22 @@ def test_objects_stand_beside_bends(rich_bytes: bytes) -> None:
 def test_a_corner_that_is_no_number_is_refused(rich_bytes: bytes) -> None:
     with pytest.raises(TownFormatError, match=r"map:\d+, road '1': <cornerLocal> has u='left'"):
         opendrive.parse(rich_bytes.replace(b'u="-1.5"', b'u="left"'), source="map")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "complaint"),
+    [
+        (b'u="-1.5"', b'u="-1e9"', "covers 9.95004e+08 m of ground; expected at most 1000 m"),
+        (b'radius="2"', b'radius="501"', "covers 1002 m of ground; expected at most 1000 m"),
+        (b'height="9"', b'height="1001"', "is 1001 m high; expected at most 1000 m"),
+        (b'tEnd="-8"', b'tEnd="-8" lengthEnd="1e4"', "m of ground; expected at most 1060 m"),
+    ],
+)
+def test_an_object_larger_than_any_is_refused(
+    rich_bytes: bytes, old: bytes, new: bytes, complaint: str
+) -> None:
+    assert old in rich_bytes
+    with pytest.raises(
+        TownFormatError, match=r"map:\d+, road '1': <object> .*" + re.escape(complaint)
+    ):
+        opendrive.parse(rich_bytes.replace(old, new), source="map")
