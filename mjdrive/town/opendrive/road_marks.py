@@ -4,6 +4,9 @@ from mjdrive.town.opendrive.road_shapes import RoadMark
 from mjdrive.town.opendrive.vocabulary import MARK_COLORS
 from mjdrive.town.opendrive.xml_fields import Element, XmlFields
 
+SHORTEST_DASH = 0.1
+"""Shortest dash of a road mark, with its gap [m]."""
+
 
 def read_marks(fields: XmlFields, lane: Element) -> tuple[RoadMark, ...]:
     """Read the marks along the outer edge of a lane.
@@ -35,7 +38,7 @@ def _read_mark(fields: XmlFields, element: Element) -> RoadMark:
     kind = fields.child(element, "type")
     if kind is not None:
         width = width or fields.number(kind, "width", 0.0)
-        lines = _read_lines(fields, kind)
+        lines = [line for line in _read_lines(fields, kind) if not _is_dust(fields, line)]
         width = width or next((line[2] for line in lines), 0.0)
         dash, gap = next(((line[0], line[1]) for line in lines if line[1] > 0.0), (0.0, 0.0))
         if len({line[:2] for line in lines if line[1] > 0.0}) > 1:
@@ -48,6 +51,14 @@ def _read_mark(fields: XmlFields, element: Element) -> RoadMark:
         dash=dash,
         gap=gap,
     )
+
+
+def _is_dust(fields: XmlFields, line: tuple[float, float, float]) -> bool:
+    """Tell whether the dashes of a line are too short to be painted; such a line counts as not given."""
+    is_dust = line[1] > 0.0 and line[0] + line[1] < SHORTEST_DASH
+    if is_dust:
+        fields.note(f"road mark with dashes and gaps shorter than {SHORTEST_DASH:g} m")
+    return is_dust
 
 
 def _read_color(fields: XmlFields, mark: Element) -> str:

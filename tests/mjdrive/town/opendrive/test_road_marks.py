@@ -1,8 +1,11 @@
+import re
+
 import pytest
 
 from mjdrive.town import opendrive
 from mjdrive.town.opendrive.road_shapes import RoadMark
 
+DUST = b'<line length="1e-300" space="1e-9"'
 WHITE = b'color="white"'
 
 
@@ -26,3 +29,11 @@ def test_unknown_colors_are_white_and_noted(rich_bytes: bytes) -> None:
     assert [mark.color for mark in _marks(data)] == [mark.color for mark in _marks(rich_bytes)]
     report = opendrive.parse_with_report(data, source="map")[1]
     assert report.not_used["road mark color 'Mauve'"] == rich_bytes.count(WHITE)
+
+
+def test_dashes_like_dust_count_as_not_given(rich_bytes: bytes) -> None:
+    data, count = re.subn(rb'<line length="[^"]*" space="[^"]*"', DUST, rich_bytes)
+    assert count
+    assert {(mark.dash, mark.gap) for mark in _marks(data)} == {(0.0, 0.0)}
+    report = opendrive.parse_with_report(data, source="map")[1]
+    assert report.not_used["road mark with dashes and gaps shorter than 0.1 m"] == count
