@@ -1,4 +1,4 @@
-"""Throw mutated maps at the OpenDRIVE reader: each must become a town or a named error.
+"""Throw mutated maps at the OpenDRIVE reader: each must become a town, every eighth also a scene, or a named error.
 
     python scripts/fuzz_opendrive.py tests/mjdrive/town/rich.xodr --seconds 300
 
@@ -11,6 +11,7 @@ import random
 import sys
 import tempfile
 import warnings
+import zlib
 from pathlib import Path
 
 import atheris
@@ -18,9 +19,10 @@ from lxml import etree
 
 with atheris.instrument_imports(include=["mjdrive.town"]):
     from mjdrive.errors import MjdriveError
-    from mjdrive.town import opendrive
+    from mjdrive.simulation.scene import build_scene, compile_scene
+    from mjdrive.town import check, opendrive
     from mjdrive.town.network import build_town
-    from mjdrive.town.settings import LightTiming
+    from mjdrive.town.settings import LightTiming, TownSettings
 
 VALUES = [
     "",
@@ -50,10 +52,14 @@ SLOWEST = 20
 
 
 def try_map(data: bytes) -> None:
-    """Read a document and build its town; any error but a named one is a defect."""
+    """Read a document, build and check its town and now and then its scene; any error but a named one is a defect."""
     try:
         road_map = opendrive.parse(data, source="fuzz", flatten=bool(len(data) % 2))
-        build_town(road_map, name="fuzz", timing=LightTiming(), digest="")
+        town = build_town(road_map, name="fuzz", timing=LightTiming(), digest="")
+        check.check(town, road_map)
+        # A scene takes a hundred times as long as a town.
+        if zlib.crc32(data) % 8 == 0:
+            compile_scene(build_scene(town, TownSettings(), timestep=0.005))
     except MjdriveError:
         pass
 
