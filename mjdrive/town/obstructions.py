@@ -6,11 +6,13 @@ from typing import NamedTuple
 import shapely
 
 from mjdrive.datatypes import StaticObject, Town
-from mjdrive.town.scenery import ground_of, standing
 from mjdrive.town.surface import lane_polygons
 
 _REACH = 0.1
 """Things may reach this far over the edge of a lane, as kerbs and barriers of sound maps do [m]."""
+
+_ON_THE_GROUND = 0.05
+"""Objects up to this height are paint, here as in the scenery, which is laid out above this floor [m]."""
 
 _THIN = 0.05
 """Radius of posts and trunks, whatever their model shows [m]."""
@@ -60,14 +62,14 @@ def _grounds(town: Town) -> Iterator[tuple[str, str, shapely.Geometry]]:
         yield name, "light", shapely.Point(x, y).buffer(_THIN)
     for sign in town.signs:
         yield sign.id, "sign", shapely.Point(sign.x, sign.y).buffer(_THIN)
-    for thing in standing(town):
-        ground = _ground(thing)
-        if not ground.is_empty:
-            yield thing.id, thing.type, ground
+    for thing in town.objects:
+        if thing.height > _ON_THE_GROUND:
+            yield thing.id, thing.type, _ground(thing)
 
 
 def _ground(thing: StaticObject) -> shapely.Geometry:
     """Ground that a thing covers; the crown of a tree is above the cars."""
-    ground = ground_of([thing.outline])
+    # What an outline without area leaves are lines, which a buffer of no width drops.
+    ground = shapely.buffer(shapely.make_valid(shapely.Polygon(thing.outline)), 0.0)
     is_tree = thing.type == "tree" and not ground.is_empty
     return ground.centroid.buffer(_THIN) if is_tree else ground

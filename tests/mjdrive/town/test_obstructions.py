@@ -7,6 +7,7 @@ import shapely
 from mjdrive.datatypes import Sign, StaticObject, Town
 from mjdrive.town.check import FindingKind, Severity, check
 from mjdrive.town.obstructions import obstructions
+from mjdrive.town.scenery import standing
 from mjdrive.town.surface import driving_surface, lane_polygons
 
 
@@ -49,7 +50,14 @@ def test_a_thing_on_a_lane_is_an_error_that_names_both(ladder: Town) -> None:
 def test_what_a_car_runs_into_is_in_the_way(
     ladder: Town, thing: dict[str, object], in_the_way: bool
 ) -> None:
-    assert bool(list(obstructions(_thing(ladder, **thing)))) is in_the_way
+    town = _thing(ladder, **thing)
+    assert bool(list(obstructions(town))) is in_the_way
+
+
+def test_what_the_scenery_lays_flat_is_in_nobodys_way(ladder: Town) -> None:
+    for height in (0.0, 0.04, 0.05, 0.051, 0.1, 3.0):
+        town = _thing(ladder, height=height)
+        assert bool(list(obstructions(town))) is bool(standing(town))
 
 
 def test_crowns_of_trees_may_hang_over_a_lane(ladder: Town) -> None:
