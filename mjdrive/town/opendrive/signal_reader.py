@@ -32,10 +32,9 @@ def read_signals(
     """
     signals = []
     for element in fields.each(road, "signals", "signal"):
-        s = read_station(fields, element, length)
-        orientation = _read_orientation(fields, element)
-        forward = _lanes_at(sections, s, orientation, drives_on_left=drives_on_left)
-        from_lane, to_lane = _read_validity(fields, element, sections, forward)
+        s, orientation, from_lane, to_lane = _read_hold(
+            fields, element, length, sections, drives_on_left=drives_on_left
+        )
         signals.append(
             SignalRecord(
                 id=fields.text(element, "id"),
@@ -79,10 +78,9 @@ def read_references(
     """
     references = []
     for element in fields.each(road, "signals", "signalReference"):
-        s = read_station(fields, element, length)
-        orientation = _read_orientation(fields, element)
-        forward = _lanes_at(sections, s, orientation, drives_on_left=drives_on_left)
-        from_lane, to_lane = _read_validity(fields, element, sections, forward)
+        s, orientation, from_lane, to_lane = _read_hold(
+            fields, element, length, sections, drives_on_left=drives_on_left
+        )
         name = fields.text(element, "id")
         references.append(SignalReference(name, from_lane, to_lane, s, orientation))
     # Beside which lane the signal stands is said by the signal itself.
@@ -128,6 +126,21 @@ def read_station(fields: XmlFields, element: Element, length: float) -> float:
     if not -0.01 <= s <= length + 0.01:
         fields.note(f"{element.tag} beyond the end of its road; moved to the end")
     return min(max(s, 0.0), length)
+
+
+def _read_hold(
+    fields: XmlFields,
+    element: Element,
+    length: float,
+    sections: Sequence[LaneSection],
+    *,
+    drives_on_left: bool,
+) -> tuple[float, str, int, int]:
+    """Read where along a road a signal holds [m], for which direction, and for which lanes."""
+    s = read_station(fields, element, length)
+    orientation = _read_orientation(fields, element)
+    forward = _lanes_at(sections, s, orientation, drives_on_left=drives_on_left)
+    return (s, orientation, *_read_validity(fields, element, sections, forward))
 
 
 def _read_orientation(fields: XmlFields, element: Element) -> str:
