@@ -35,6 +35,10 @@ class RouteError(MjdriveError):
     """Waypoints that no chain of lanes connects, or a route too short to follow."""
 
 
+class CarError(MjdriveError):
+    """A car file that is missing, is no MJCF, or lacks what a car needs to drive."""
+
+
 class ConfigError(MjdriveError):
     """A setting out of its range, of the wrong type, or without a meaning."""
 

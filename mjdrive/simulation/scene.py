@@ -1,5 +1,7 @@
 """The world that the car drives in: one MJCF scene out of a town."""
 
+from pathlib import Path
+
 import mujoco
 import numpy as np
 
@@ -23,7 +25,9 @@ _LOOKS = 1
 """Second word of the seed of what only the eye sees; the layout draws from the seed alone."""
 
 
-def build_scene(town: Town, settings: TownSettings, *, timestep: float) -> mujoco.MjSpec:
+def build_scene(
+    town: Town, settings: TownSettings, *, timestep: float, car: Path | None = None
+) -> mujoco.MjSpec:
     """Build the town around the car.
 
     Everything that stands is a geom of the world body: MuJoCo finds contacts among hundreds of those as fast as
@@ -33,6 +37,7 @@ def build_scene(town: Town, settings: TownSettings, *, timestep: float) -> mujoc
         town: Road network.
         settings: What stands beside the roads.
         timestep: Length of one physics step [s].
+        car: MJCF of the car, as `cars.load` has checked it; car.xml if None.
 
     Returns:
         Scene. What the car can hit: `road`, `kerb_<n>`, `building_<n>`, `pole_<light>`, `sign_<id>`, `tree_<n>` and
@@ -41,7 +46,7 @@ def build_scene(town: Town, settings: TownSettings, *, timestep: float) -> mujoc
     scenery = settings.scenery
     layout = lay_out(town, scenery)
     rng = np.random.default_rng([scenery.seed, _LOOKS])
-    spec = car_on_road(timestep=timestep)
+    spec = car_on_road(timestep=timestep, car=car)
     spec.modelname = town.name
     spec.geom(ROAD).group = UNSEEN_GROUP
     set_stage(spec, town)

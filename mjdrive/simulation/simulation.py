@@ -18,9 +18,10 @@ from mjdrive.simulation.lamps import set_lamps
 from mjdrive.simulation.rules import Rules
 from mjdrive.town import library, signals
 from mjdrive.town.settings import TownSettings
+from mjdrive.vehicle import cars
 from mjdrive.vehicle.car import Car
+from mjdrive.vehicle.cars import CarModel
 from mjdrive.vehicle.engine import require_sane
-from mjdrive.vehicle.parameters import VehicleParameters
 
 _STANDING = Action(acceleration=0.0, steering=0.0)
 
@@ -48,6 +49,7 @@ class Simulation:
         town: Where to drive.
         config: Time steps.
         settings: What stands beside the roads; what town.json says if None.
+        car: Which car; the default one if None.
     """
 
     def __init__(
@@ -56,17 +58,22 @@ class Simulation:
         config: SimulationConfig | None = None,
         *,
         settings: TownSettings | None = None,
+        car: CarModel | None = None,
     ) -> None:
         self.town = town
         self.config = config or SimulationConfig()
+        self.car_model = car or cars.load()
         spec = scene.build_scene(
-            town, settings or library.load_settings(town.name), timestep=self.config.timestep
+            town,
+            settings or library.load_settings(town.name),
+            timestep=self.config.timestep,
+            car=self.car_model.path,
         )
         self.model = scene.compile_scene(spec)
         self.data = mujoco.MjData(self.model)
         self.car = Car(self.model, self.data)
         self._projector = BevProjector(town, control_interval=self.config.control_interval)
-        self._rules = Rules(town, VehicleParameters.default())
+        self._rules = Rules(town, self.car.parameters)
         self._contacts = ContactWatch(self.model, self.data)
         self._num_steps = 0
         self._action = _STANDING

@@ -13,12 +13,14 @@ ROAD_BITS = (2, 1)
 OBSTACLE_BITS = (10, 1)
 
 
-def car_path() -> Path:
-    """Where the MJCF of the car lies."""
-    return Path(str(importlib.resources.files("mjdrive.vehicle") / "car.xml"))
+def car_path(file: str = "car.xml") -> Path:
+    """Where the MJCF of a car that ships with mjdrive lies."""
+    return Path(str(importlib.resources.files("mjdrive.vehicle") / file))
 
 
-def car_on_road(*, timestep: float, friction: float = 1.0) -> mujoco.MjSpec:
+def car_on_road(
+    *, timestep: float, friction: float = 1.0, car: Path | None = None
+) -> mujoco.MjSpec:
     """Build a scene of the car and one plane, to add the rest of a world to.
 
     All of the road is one plane because the tyre law belongs to pairs of geoms, and because a wheel bumps over the
@@ -27,11 +29,12 @@ def car_on_road(*, timestep: float, friction: float = 1.0) -> mujoco.MjSpec:
     Args:
         timestep: Length of one physics step [s].
         friction: Friction coefficient between tyre and road [-].
+        car: MJCF of the car, as `cars.load` has checked it; car.xml if None.
 
     Returns:
         Scene that `Car` can drive once it is compiled.
     """
-    spec = mujoco.MjSpec.from_file(str(car_path()))
+    spec = mujoco.MjSpec.from_file(str(car or car_path()))
     spec.option.timestep = timestep
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC

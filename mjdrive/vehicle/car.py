@@ -33,7 +33,7 @@ class Car:
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        self.parameters = parameters = VehicleParameters.default()
+        self.parameters = parameters = VehicleParameters.of(model)
         self.hull_geoms = frozenset(model.geom(name).id for name in ("hull_low", "hull_top"))
         self.tyre_geoms = frozenset(model.geom(f"tyre_{wheel}").id for wheel in WHEELS)
         self._model = model

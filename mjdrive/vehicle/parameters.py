@@ -81,7 +81,18 @@ class VehicleParameters:
         Returns:
             What the file says; nothing is assumed.
         """
-        model = mujoco.MjModel.from_xml_path(str(path))
+        return VehicleParameters.of(mujoco.MjModel.from_xml_path(str(path)))
+
+    @staticmethod
+    def of(model: mujoco.MjModel) -> "VehicleParameters":
+        """Read the numbers out of a compiled scene that holds the car.
+
+        Args:
+            model: Scene, with a car that has not been driven: `Car` writes its brakes into the model.
+
+        Returns:
+            What the scene says; nothing is assumed.
+        """
         data = mujoco.MjData(model)
         mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
