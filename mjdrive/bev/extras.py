@@ -8,7 +8,7 @@ import shapely
 from jaxtyping import Float, UInt8
 
 from mjdrive.bev.layers import MARKED
-from mjdrive.bev.rasters import Raster, draw_area
+from mjdrive.bev.rasters import Raster, draw_areas
 from mjdrive.config import BevConfig
 from mjdrive.datatypes import Town
 from mjdrive.errors import ConfigError
@@ -31,7 +31,7 @@ def scenery_rasters(
         config: How the view is drawn.
 
     Returns:
-        A raster for each of "sidewalks" and "buildings" among the channels.
+        A raster of "sidewalks" and "buildings", as far as they are among the channels; none if neither is.
 
     Raises:
         ConfigError: If there is such a channel and no scenery.
@@ -48,7 +48,7 @@ def scenery_rasters(
         "sidewalks": scenery.sidewalk,
         "buildings": shapely.union_all([house.footprint() for house in scenery.buildings]),
     }
-    return tuple(draw_area(town, areas[name], channels.index(name), config) for name in wanted)
+    return (draw_areas(town, {channels.index(name): areas[name] for name in wanted}, config),)
 
 
 def draw_route(

@@ -47,8 +47,10 @@ class BevProjector:
     ) -> None:
         self.config = config or BevConfig()
         self.channels = channel_names(self.config)
-        self._rasters = draw_lanes(town, self.config)
-        self._rasters += scenery_rasters(town, scenery, self.channels, self.config)
+        self._rasters = (
+            draw_lanes(town, self.config),
+            *scenery_rasters(town, scenery, self.channels, self.config),
+        )
         self._stop_lines = StopLines(town, control_interval=control_interval, config=self.config)
         self._view_from_vehicle = _view_from_vehicle(self.config)
 

@@ -1,11 +1,12 @@
 """Everything of a town that stands still, drawn once from above; a view is a turned cut-out of it."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import cv2
 import numpy as np
 import shapely
-from jaxtyping import Float, UInt8, UInt16
+from jaxtyping import Float, UInt8
 
 from mjdrive.bev.layers import MARKED, Layer
 from mjdrive.config import BevConfig
@@ -22,34 +23,55 @@ _SCENERY_MARGIN = 60.0
 LARGEST_RASTER = 200_000_000
 """Most pixels of a raster of a town, about 2.8 km by 2.8 km at 5 px/m; drawing it takes some 8 bytes each [px]."""
 
-_LINE_GAIN = np.uint16(255)
-"""How much stronger than the road a lane line is where both share a raster; see `_road_and_lines`."""
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Raster:
-    """A picture of a whole town, north up.
+    """A picture of a whole town, north up, with a bit for each of up to eight layers.
+
+    A pixel of a view shows a layer if any of the four pixels of the drawn layer around its place does, as in the
+    original, so that thin lines stay unbroken at every angle. That is settled here once: a pixel of `image` stands for
+    the corner that four drawn pixels share, so the nearest one tells.
 
     Attributes:
-        image: One or more layers as grey levels.
-        world_from_raster: From (column, row) [px] to the world frame [m].
-        thresholds: Channel of the view and the level above which a pixel of the image belongs to it.
+        image: Bit n of each pixel belongs to layer n.
+        world_from_raster: From (column, row) of the image [px] to the world frame [m].
+        channels: Channel of the view of each layer.
     """
 
-    image: UInt8[np.ndarray, "H W"] | UInt16[np.ndarray, "H W"]
+    image: UInt8[np.ndarray, "H W"]
     world_from_raster: Float[np.ndarray, "3 3"]
-    thresholds: tuple[tuple[int, int], ...]
+    channels: tuple[int, ...]
+
+    @staticmethod
+    def of_layers(
+        layers: Mapping[int, UInt8[np.ndarray, "H W"]],
+        world_from_drawn: Float[np.ndarray, "3 3"],
+    ) -> "Raster":
+        """Put drawn layers into one raster.
+
+        Args:
+            layers: Pictures of the layers, not 0 where a pixel is marked, by channel of the view; empty at the edges.
+            world_from_drawn: From (column, row) of the pictures [px] to the world frame [m].
+        """
+        assert len(layers) <= 8, f"{len(layers)} layers do not fit into 8 bits"
+        # An anchor of (0, 0) makes pixel (c, r) the largest of the four from (c, r) to (c + 1, r + 1).
+        square, anchor = np.ones((2, 2), np.uint8), (0, 0)
+        touched = [cv2.dilate(layer, square, anchor=anchor) > 0 for layer in layers.values()]
+        bits = [np.uint8(1 << number) * layer for number, layer in enumerate(touched)]
+        image = np.bitwise_or.reduce(bits)
+        corner = np.array([[1.0, 0.0, 0.5], [0.0, 1.0, 0.5], [0.0, 0.0, 1.0]])
+        return Raster(image, world_from_drawn @ corner, tuple(layers))
 
     def draw(
         self, bev: UInt8[np.ndarray, "C S S"], view_from_world: Float[np.ndarray, "3 3"]
     ) -> None:
         """Draw the layers of this raster into their channels of a view."""
         view_from_raster = view_from_world @ self.world_from_raster
-        # Any touched pixel counts, as in the original, so thin lines stay unbroken at every angle.
-        cut = cv2.warpAffine(self.image, view_from_raster[:2], bev.shape[1:])
-        for channel, threshold in self.thresholds:
-            np.greater(cut, threshold, out=bev[channel].view(np.bool_))
-            bev[channel] *= np.uint8(MARKED)
+        size = bev.shape[1:]
+        cut = np.empty(size, np.uint8)
+        cv2.warpAffine(self.image, view_from_raster[:2], size, cut, cv2.INTER_NEAREST)
+        for number, channel in enumerate(self.channels):
+            np.multiply(cut >> number & 1, MARKED, out=bev[channel])
 
 
 def require_drawable(town: Town, config: BevConfig | None = None) -> None:
@@ -72,22 +94,37 @@ def require_drawable(town: Town, config: BevConfig | None = None) -> None:
         )
 
 
-def draw_lanes(town: Town, config: BevConfig) -> tuple[Raster, ...]:
-    """Draw the road and lane-line channels of a town.
-
-    Each lane is filled and outlined; lane lines are both edges of every lane outside junctions, 1 px wide.
+def draw_lanes(town: Town, config: BevConfig) -> Raster:
+    """Draw the road and lane-line channels of a town; see `lane_layers`.
 
     Args:
         town: Road network.
         config: How the view is drawn.
 
     Returns:
-        One raster with both layers, or two where the outline is too narrow for that.
+        Raster of both layers.
 
     Raises:
         TownFormatError: If the town is too large.
     """
     require_drawable(town, config)
+    return Raster.of_layers(*lane_layers(town, config))
+
+
+def lane_layers(
+    town: Town, config: BevConfig
+) -> tuple[dict[int, UInt8[np.ndarray, "H W"]], Float[np.ndarray, "3 3"]]:
+    """Draw all lanes of a town from above, north up.
+
+    Each lane is filled and outlined; lane lines are both edges of every lane outside junctions, 1 px wide.
+
+    Args:
+        town: Road network, not too large to draw.
+        config: How the view is drawn.
+
+    Returns:
+        Pictures of road and lane lines by channel, and from their (column, row) [px] to the world frame [m].
+    """
     canvas = _Canvas(town, _LANES_MARGIN, config.pixels_per_metre)
     road, lane_lines = canvas.blank(), canvas.blank()
     for lane in town.lanes.values():
@@ -100,30 +137,29 @@ def draw_lanes(town: Town, config: BevConfig) -> tuple[Raster, ...]:
             cv2.polylines(road, [outline], True, MARKED, thickness)
         if lane.junction is None:
             cv2.polylines(lane_lines, [left, right], False, MARKED, 1)
-    return _road_and_lines(road, lane_lines, canvas.world_from_raster)
+    return {Layer.ROAD: road, Layer.LANE_LINES: lane_lines}, canvas.world_from_raster
 
 
-def draw_area(town: Town, area: shapely.Geometry, channel: int, config: BevConfig) -> Raster:
-    """Draw a channel that shows the ground under something.
+def draw_areas(town: Town, areas: Mapping[int, shapely.Geometry], config: BevConfig) -> Raster:
+    """Draw channels that show the ground under something.
 
     Args:
-        town: Road network that the area surrounds.
-        area: Polygon or several, holes allowed, world frame [m].
-        channel: Of the view.
+        town: Road network that the areas surround.
+        areas: Polygon or several, holes allowed, world frame [m], by channel of the view.
         config: How the view is drawn.
 
     Returns:
-        Raster of the one layer.
+        Raster of all of them.
     """
     canvas = _Canvas(town, _SCENERY_MARGIN, config.pixels_per_metre)
-    image = canvas.blank()
-    for polygon in shapely.get_parts(area):
-        # One call a polygon: with holes an inner outline takes away what an outer one fills.
-        rings = [polygon.exterior, *polygon.interiors]
-        cv2.fillPoly(
-            image, [canvas.pixels(shapely.get_coordinates(ring)) for ring in rings], MARKED
-        )
-    return Raster(image, canvas.world_from_raster, ((channel, 0),))
+    layers = {channel: canvas.blank() for channel in areas}
+    for channel, area in areas.items():
+        for polygon in shapely.get_parts(area):
+            # One call a polygon: with holes an inner outline takes away what an outer one fills.
+            rings = [polygon.exterior, *polygon.interiors]
+            corners = [canvas.pixels(shapely.get_coordinates(ring)) for ring in rings]
+            cv2.fillPoly(layers[channel], corners, MARKED)
+    return Raster.of_layers(layers, canvas.world_from_raster)
 
 
 class _Canvas:
@@ -146,25 +182,3 @@ class _Canvas:
     def pixels(self, points: Float[np.ndarray, "N 2"]) -> np.ndarray:
         raster = points @ self._raster_from_world[:2, :2].T + self._raster_from_world[:2, 2]
         return np.rint(raster).astype(np.int32)
-
-
-def _road_and_lines(
-    road: UInt8[np.ndarray, "H W"],
-    lane_lines: UInt8[np.ndarray, "H W"],
-    world_from_raster: Float[np.ndarray, "3 3"],
-) -> tuple[Raster, ...]:
-    """Put both layers into one raster, because the warp is what a frame costs.
-
-    Where all neighbours of a line are road, a warped pixel that touches the line by the share w reads
-    255 + 255 * 255 w before rounding, and one that does not reads at most 255. In a raster of its own the line reads
-    255 w and shows above 0.5: here that is above 255 + 127.5, so rounding turns on the same pixels.
-    """
-    inner_road = cv2.erode(road, np.ones((3, 3), np.uint8))
-    if np.any(lane_lines > inner_road):
-        return (
-            Raster(road, world_from_raster, ((Layer.ROAD, 0),)),
-            Raster(lane_lines, world_from_raster, ((Layer.LANE_LINES, 0),)),
-        )
-    both = road + _LINE_GAIN * lane_lines.astype(np.uint16)
-    line_threshold = MARKED + int(_LINE_GAIN) // 2
-    return (Raster(both, world_from_raster, ((Layer.ROAD, 0), (Layer.LANE_LINES, line_threshold))),)

@@ -54,7 +54,7 @@ def test_extra_channels_come_in_the_order_asked_for(make_street, scenery, layers
     bev = projector.project(**POSE, route=np.array([[0.0, -2.0], [50.0, -2.0]]), vehicles=[CAR])
     areas = {name: np.count_nonzero(bev[5 + place]) / 25 for place, name in enumerate(layers)}
     assert areas["vehicles"] == pytest.approx(4.5 * 1.8, rel=0.2)
-    assert areas["buildings"] == pytest.approx(10 * 6, rel=0.1)
+    assert areas["buildings"] == pytest.approx(10 * 6, rel=0.12)  # with the pixels it touches
     assert areas["sidewalks"] == pytest.approx(2 * 3 * 38.4, rel=0.15)
     assert areas["route"] == pytest.approx(3.2 * (30.4 + 1.35), rel=0.15)
     assert set(np.unique(bev[5:])) == {0, 255}
