@@ -21,6 +21,14 @@ import rich_click as click
     help="Scale of the disturbances: 0 drives cleanly, 1 is the standard. The clean action stays the label.",
 )
 @click.option(
+    "--car",
+    "car_name",
+    default="default",
+    show_default=True,
+    metavar="NAME|FILE.xml",
+    help="A car that comes with mjdrive (default, mkz), or an MJCF file of your own.",
+)
+@click.option(
     "--seed",
     default=0,
     show_default=True,
@@ -39,6 +47,7 @@ def collect(
     town_name: str,
     preset: str,
     noise: float | None,
+    car_name: str,
     seed: int,
     out: Path | None,
     overwrite: bool,
@@ -56,7 +65,9 @@ def collect(
     from mjdrive.evaluation.figures import draw_dataset
     from mjdrive.town import library
     from mjdrive.town.routing import route_through
+    from mjdrive.vehicle import cars
 
+    car = cars.load(car_name)
     settings = presets.collect_preset(preset)
     if noise is not None:
         settings = presets.with_noise(settings, noise)
@@ -78,7 +89,7 @@ def collect(
             if done == expected:
                 bars.advance(whole)
 
-        collect_routes(town, routes, folder, settings=settings, seed=seed, report=report)
+        collect_routes(town, routes, folder, settings=settings, seed=seed, car=car, report=report)
     manifest, episodes = dataset.read_dataset(folder)
     names = [entry.name for entry in manifest.episodes]
     draw_dataset(dict(zip(names, episodes, strict=True)), town, folder / "overview.png")

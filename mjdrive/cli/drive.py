@@ -30,6 +30,14 @@ DRIVES = Path("drives")
     help="How a trained policy chooses its actions. [default: as it was trained to]",
 )
 @click.option(
+    "--car",
+    "car_name",
+    default="default",
+    show_default=True,
+    metavar="NAME|FILE.xml",
+    help="A car that comes with mjdrive (default, mkz), or an MJCF file of your own.",
+)
+@click.option(
     "--seed",
     default=0,
     show_default=True,
@@ -48,6 +56,7 @@ def drive(
     num_steps: int,
     policy_name: str | None,
     preset: str | None,
+    car_name: str,
     seed: int,
     out: Path | None,
 ) -> None:
@@ -61,7 +70,9 @@ def drive(
     from mjdrive.cli.driver import find_driver
     from mjdrive.evaluation import report
     from mjdrive.town import library
+    from mjdrive.vehicle import cars
 
+    car = cars.load(car_name)
     town = library.load(town_name)
     driver = find_driver(policy_name, RUNS, preset=preset)
     folder = out or report.new_folder(DRIVES, datetime.datetime.now())
@@ -70,6 +81,7 @@ def drive(
         task = bars.add_task(f"{driver.name} in {town.name}", total=num_steps)
         episode = driver.drive(
             town,
+            car=car,
             num_steps=num_steps,
             seed=seed,
             on_step=lambda done: bars.update(task, completed=done),

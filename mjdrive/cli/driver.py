@@ -11,6 +11,7 @@ from mjdrive.datatypes import Episode, Town
 from mjdrive.episodes import driving, store
 from mjdrive.errors import ConfigError
 from mjdrive.simulation.simulation import Simulation
+from mjdrive.vehicle.cars import CarModel
 
 if TYPE_CHECKING:
     from mjdrive.learning.pilot import Pilot
@@ -35,17 +36,24 @@ class Driver:
     pilot: "Pilot | None" = None
 
     def drive(
-        self, town: Town, *, num_steps: int, seed: int, on_step: Callable[[int], None]
+        self,
+        town: Town,
+        *,
+        car: CarModel,
+        num_steps: int,
+        seed: int,
+        on_step: Callable[[int], None],
     ) -> Episode:
         """Drive freely, from a random place.
 
         Args:
             town: Town to drive in.
+            car: Which car it drives.
             num_steps: Control steps [-].
             seed: Same seed, same drive.
             on_step: Told the number of control steps done.
         """
-        simulation = Simulation(town)
+        simulation = Simulation(town, car=car)
         settings = {
             "num_steps": num_steps,
             "simulation": json.loads(config.to_json(simulation.config)),
@@ -53,6 +61,8 @@ class Driver:
         }
         metadata = {
             "town_digest": town.digest,
+            "car": car.name,
+            "car_digest": car.digest,
             "policy_digest": self.digest,
             "settings": json.dumps(settings, sort_keys=True),
             **versions.to_metadata(versions.versions()),

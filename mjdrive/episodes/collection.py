@@ -47,7 +47,12 @@ def collect_route(
         disturbance = Disturbance(config.disturbance, rng, interval=interval)
     episode = rollout(
         simulation,
-        PidExpert(simulation.town, config=config.pid, control_interval=interval),
+        PidExpert(
+            simulation.town,
+            parameters=simulation.car.parameters,
+            config=config.pid,
+            control_interval=interval,
+        ),
         follow,
         num_steps=int(config.step_limit_per_metre * route.station[-1]),
         seed=seed,

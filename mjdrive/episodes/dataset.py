@@ -10,6 +10,7 @@ from mjdrive.datatypes import Episode
 from mjdrive.episodes import store
 from mjdrive.errors import ConfigError, DataError
 from mjdrive.town import library
+from mjdrive.vehicle import cars
 
 FORMAT = "mjdrive-dataset-1"
 MANIFEST = "manifest.json"
@@ -44,6 +45,8 @@ class Manifest:
         seed: Seed of the collection [-].
         settings: Settings of the collection, as JSON values.
         versions: Versions of the software that drove.
+        car: Name of the car that drove; data sets from before one could choose were driven with the default car.
+        car_digest: Digest of its MJCF.
         num_planned: Episodes in the whole data set; more than are listed while it is being collected [-].
         episodes: Finished episodes, in the order in which they were driven.
         format: Version of this description.
@@ -56,6 +59,8 @@ class Manifest:
     versions: dict[str, str]
     num_planned: int
     episodes: tuple[EpisodeEntry, ...] = ()
+    car: str = cars.DEFAULT
+    car_digest: str = ""
     format: str = FORMAT
 
 

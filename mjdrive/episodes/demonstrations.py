@@ -16,6 +16,8 @@ from mjdrive.episodes.dataset import EpisodeEntry, Manifest
 from mjdrive.errors import DataError, RouteError, UnknownNameError
 from mjdrive.files import write_atomically
 from mjdrive.simulation.simulation import Simulation
+from mjdrive.vehicle import cars
+from mjdrive.vehicle.cars import CarModel
 
 Report = Callable[[str, int, int], None]
 """Told the name of an episode, its steps so far, and the steps expected of it; at the end both are equal."""
@@ -28,6 +30,7 @@ def collect(
     *,
     settings: CollectConfig,
     seed: int,
+    car: CarModel | None = None,
     report: Report = lambda name, done, expected: None,
 ) -> Manifest:
     """Let the expert drive the routes of a town into a folder.
@@ -40,6 +43,7 @@ def collect(
         folder: Data folder; it may hold a part of the same data set.
         settings: Which routes, how often, and how they are driven.
         seed: The same seed gives the same files.
+        car: Which car drives; the default one if None.
         report: Told how far the collection is.
 
     Returns:
@@ -59,16 +63,19 @@ def collect(
         if name not in routes:
             raise UnknownNameError(f"route of {town.name}", name, routes)
     plan = _plan(names, settings.repeats)
+    car = car or cars.load()
     manifest = Manifest(
         town=town.name,
         town_digest=town.digest,
+        car=car.name,
+        car_digest=car.digest,
         seed=seed,
         settings=json.loads(config.to_json(settings)),
         versions=versions.versions(),
         num_planned=len(plan),
     )
     finished = _finished(folder, manifest)
-    simulation = Simulation(town)
+    simulation = Simulation(town, car=car)
     for index, (name, route_name) in enumerate(plan.items()):
         route = routes[route_name]
         if name not in finished:
@@ -136,6 +143,8 @@ def _described(episode: Episode, town: Town, manifest: Manifest) -> Episode:
     metadata = {
         **episode.metadata,
         "town_digest": town.digest,
+        "car": manifest.car,
+        "car_digest": manifest.car_digest,
         "settings": json.dumps(manifest.settings, sort_keys=True),
         **versions.to_metadata(manifest.versions),
     }

@@ -80,7 +80,12 @@ def drive_expert(
     simulation.reset(lane=lane, station=station, seed=seed)
     return rollout(
         simulation,
-        PidExpert(town, config=config, control_interval=interval),
+        PidExpert(
+            town,
+            parameters=simulation.car.parameters,
+            config=config,
+            control_interval=interval,
+        ),
         FollowRoute(route),
         num_steps=num_steps,
         seed=seed,
