@@ -33,9 +33,13 @@ class VehicleParameters:
         tyre_vertical_stiffness: One tyre [N/m].
         tyre_vertical_damping: One tyre [N s/m].
         drive_torque: Axle torque at full throttle from rest [N m].
+        drive_torque_slope: What that torque loses per speed of the wheels [N m s/rad].
+        throttle_lag: Time constant with which the torque follows the throttle [s].
         brake_torque: All wheels together at full brake [N m].
         brake_front_share: Part of it on the front axle [-].
+        brake_lag: Time constant with which the torque follows the brake [s].
         rolling_torque: Rolling resistance of one wheel [N m].
+        wheel_inertia: One wheel about its axle [kg m2].
         drag_area: Drag coefficient times frontal area [m2].
     """
 
@@ -55,9 +59,13 @@ class VehicleParameters:
     tyre_vertical_stiffness: float
     tyre_vertical_damping: float
     drive_torque: float
+    drive_torque_slope: float
+    throttle_lag: float
     brake_torque: float
     brake_front_share: float
+    brake_lag: float
     rolling_torque: float
+    wheel_inertia: float
     drag_area: float
 
     @property
@@ -119,8 +127,12 @@ class VehicleParameters:
             tyre_vertical_stiffness=float(_numeric(model, "tyre_vertical_stiffness")[0]),
             tyre_vertical_damping=float(_numeric(model, "tyre_vertical_damping")[0]),
             drive_torque=float(model.actuator("throttle").gainprm[0]),
+            drive_torque_slope=float(-model.actuator("throttle").gainprm[2]),
+            throttle_lag=_lag(model, "throttle"),
             brake_torque=float(_numeric(model, "brake_torque")[0]),
             brake_front_share=float(_numeric(model, "brake_front_share")[0]),
+            brake_lag=_lag(model, "brake"),
+            wheel_inertia=float(model.body("wheel_rl").inertia[1]),
             rolling_torque=float(model.dof_frictionloss[model.joint("spin_fl").dofadr[0]]),
             drag_area=float(_numeric(model, "drag_area")[0]),
         )
@@ -128,3 +140,10 @@ class VehicleParameters:
 
 def _numeric(model: mujoco.MjModel, name: str) -> np.ndarray:
     return model.numeric(name).data
+
+
+def _lag(model: mujoco.MjModel, actuator: str) -> float:
+    """Time constant of an actuator; 0 for one that follows its command at once [s]."""
+    kind = model.actuator(actuator)
+    filters = (int(mujoco.mjtDyn.mjDYN_FILTER), int(mujoco.mjtDyn.mjDYN_FILTEREXACT))
+    return float(kind.dynprm[0]) if int(kind.dyntype[0]) in filters else 0.0

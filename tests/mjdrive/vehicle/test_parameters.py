@@ -31,6 +31,18 @@ def test_full_command_is_full_lock_at_the_stated_rate():
     assert car.max_steering_rate == pytest.approx(0.48)
 
 
+def test_pedals_have_the_lags_and_the_torque_curve_of_the_mjcf(tmp_path):
+    car = VehicleParameters.default()
+    assert (car.throttle_lag, car.brake_lag) == (0.15, 0.08)
+    assert car.drive_torque / car.drive_torque_slope == pytest.approx(180.0, rel=1e-5)
+    assert car.wheel_inertia == pytest.approx(1.1)
+    prompt = tmp_path / "car.xml"
+    lagged = 'dyntype="filterexact" dynprm="0.08"'
+    assert lagged in car_path().read_text()
+    prompt.write_text(car_path().read_text().replace(lagged, ""))
+    assert VehicleParameters.read(prompt).brake_lag == 0.0
+
+
 def test_springs_carry_the_resting_car_at_zero_travel(ground):
     ground.drive(-1.0, 0.0, 3.0)
     travel = [float(ground.data.joint(f"susp_{wheel}").qpos[0]) for wheel in WHEELS]
