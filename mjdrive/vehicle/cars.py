@@ -8,7 +8,7 @@ from pathlib import Path
 from mjdrive.vehicle.assembly import car_path
 from mjdrive.vehicle.parameters import VehicleParameters
 
-SHIPPED = {"default": "car.xml"}
+SHIPPED = {"default": "car.xml", "mkz": "mkz.xml"}
 DEFAULT = "default"
 
 

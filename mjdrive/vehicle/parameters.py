@@ -32,8 +32,9 @@ class VehicleParameters:
         cornering_stiffness_rear: Lateral force per slip angle of one rear tyre [N/rad].
         tyre_vertical_stiffness: One tyre [N/m].
         tyre_vertical_damping: One tyre [N s/m].
-        drive_torque: Axle torque at full throttle from rest [N m].
+        drive_torque: All driven wheels together at full throttle from rest [N m].
         drive_torque_slope: What that torque loses per speed of the wheels [N m s/rad].
+        throttle_dead_band: Throttle up to which there is no torque; from there it grows in proportion [-].
         throttle_lag: Time constant with which the torque follows the throttle [s].
         brake_torque: All wheels together at full brake [N m].
         brake_front_share: Part of it on the front axle [-].
@@ -60,6 +61,7 @@ class VehicleParameters:
     tyre_vertical_damping: float
     drive_torque: float
     drive_torque_slope: float
+    throttle_dead_band: float
     throttle_lag: float
     brake_torque: float
     brake_front_share: float
@@ -108,7 +110,7 @@ class VehicleParameters:
         front_left, front_right, rear_left = wheels[:3]
         hull, half = model.geom("hull_low").pos, model.geom("hull_low").size
         ahead, _, height = data.body("car").subtree_com
-        steering = model.actuator("steering")
+        throttle, steering = model.actuator("throttle"), model.actuator("steering")
         front, rear = _numeric(model, "cornering_stiffness")
         return VehicleParameters(
             mass=float(model.body("car").subtreemass[0]),
@@ -126,8 +128,9 @@ class VehicleParameters:
             cornering_stiffness_rear=float(rear),
             tyre_vertical_stiffness=float(_numeric(model, "tyre_vertical_stiffness")[0]),
             tyre_vertical_damping=float(_numeric(model, "tyre_vertical_damping")[0]),
-            drive_torque=float(model.actuator("throttle").gainprm[0]),
-            drive_torque_slope=float(-model.actuator("throttle").gainprm[2]),
+            drive_torque=float(throttle.gainprm[0] + throttle.biasprm[0]),
+            drive_torque_slope=float(-throttle.gainprm[2] - throttle.biasprm[2]),
+            throttle_dead_band=float(-throttle.biasprm[0] / throttle.gainprm[0]),
             throttle_lag=_lag(model, "throttle"),
             brake_torque=float(_numeric(model, "brake_torque")[0]),
             brake_front_share=float(_numeric(model, "brake_front_share")[0]),
