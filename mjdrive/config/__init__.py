@@ -1,6 +1,7 @@
 """Frozen settings, and how they are written to and read from JSON."""
 
 from mjdrive.config.json_files import from_dict, read_json, require, to_json, write_json
+from mjdrive.config.mpc import MpcConfig
 from mjdrive.config.settings import (
     BevConfig,
     CollectConfig,
@@ -10,15 +11,18 @@ from mjdrive.config.settings import (
     RulesConfig,
     SimulationConfig,
 )
+from mjdrive.config.tuning import TuneConfig
 
 __all__ = [
     "BevConfig",
     "CollectConfig",
     "DisturbanceConfig",
     "ExtraLayer",
+    "MpcConfig",
     "PidConfig",
     "RulesConfig",
     "SimulationConfig",
+    "TuneConfig",
     "from_dict",
     "read_json",
     "require",
