@@ -1,0 +1,30 @@
+"""The mechanical energy of a scene, with what its tyres store."""
+
+import mujoco
+import numpy as np
+
+from mjdrive.vehicle.car import Car
+
+
+class EnergyMeter:
+    """Adds up kinetic energy, height, springs and tyres; what hulls and kerbs store is left out.
+
+    Args:
+        model: Scene with a car; MuJoCo is told to compute energies in it, which changes no motion.
+        data: Its state.
+        car: The car.
+    """
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, car: Car) -> None:
+        model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
+        mujoco.mj_forward(model, data)
+        self._data = data
+        self._tyres = list(car.tyre_geoms)
+        self._stiffness = car.parameters.tyre_vertical_stiffness
+
+    def read(self) -> float:
+        """Energy at the beginning of the last physics step [J]."""
+        contact = self._data.contact
+        of_tyre = np.isin(contact.geom, self._tyres).any(axis=1)
+        squeezed = np.minimum(contact.dist[of_tyre], 0.0)
+        return float(self._data.energy.sum() + 0.5 * self._stiffness * (squeezed**2).sum())
