@@ -130,7 +130,9 @@ class VehicleParameters:
             tyre_vertical_damping=float(_numeric(model, "tyre_vertical_damping")[0]),
             drive_torque=float(throttle.gainprm[0] + throttle.biasprm[0]),
             drive_torque_slope=float(-throttle.gainprm[2] - throttle.biasprm[2]),
-            throttle_dead_band=float(-throttle.biasprm[0] / throttle.gainprm[0]),
+            throttle_dead_band=float(
+                1.0 - (throttle.gainprm[0] + throttle.biasprm[0]) / throttle.gainprm[0]
+            ),
             throttle_lag=_lag(model, "throttle"),
             brake_torque=float(_numeric(model, "brake_torque")[0]),
             brake_front_share=float(_numeric(model, "brake_front_share")[0]),
