@@ -57,3 +57,7 @@ class PhysicsError(MjdriveError):
 
 class RenderError(MjdriveError):
     """A picture that cannot be drawn on this machine."""
+
+
+class SolverError(MjdriveError):
+    """A solver that does not exist, or that this installation of casadi lacks."""

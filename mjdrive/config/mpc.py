@@ -1,0 +1,84 @@
+"""Frozen settings of the MPC expert: what it weighs, what limits it, and who solves its problem."""
+
+from dataclasses import dataclass
+
+from mjdrive.config.json_files import require
+
+
+@dataclass(frozen=True, slots=True)
+class MpcConfig:
+    """Settings of the MPC expert; where it must stop and how fast it may go is said by `PidConfig`, for both experts.
+
+    A tolerance is the size of an error that costs as much as any other error of the size of its tolerance: the cost of
+    a plan is the sum of all (error / tolerance)^2. A smaller tolerance weighs more.
+
+    Attributes:
+        horizon: How far the plan looks ahead; rounded to whole control intervals [s].
+        offset_tolerance: Of the distance from the route [m].
+        heading_tolerance: Of the heading against the route [rad].
+        station_tolerance: Of the progress against the reference [m].
+        speed_tolerance: Of the speed against the reference [m/s].
+        acceleration_tolerance: Of any acceleration [m/s2].
+        jerk_tolerance: Of the rate of the acceleration [m/s3].
+        steering_rate_tolerance: Of the rate of the steering angle [rad/s].
+        steering_jolt_tolerance: Of the rate of that rate [rad/s2].
+        lane_tolerance: Of the body beyond the edge of the lane [m].
+        grip_tolerance: Of lateral acceleration beyond its limit [m/s2].
+        lane_margin: Space to keep between the body and the edge of the lane on a straight [m].
+        lateral_acceleration: Limit of it, softened by grip_tolerance [m/s2].
+        acceleration: Largest acceleration of the reference [m/s2].
+        braking: Deceleration of the reference towards a stop line or a slower stretch, where there is room for it [m/s2].
+        max_jerk: Limit of the rate of the acceleration [m/s3].
+        max_braking: Limit of the deceleration [m/s2].
+        steering_rate_share: Part of the car's steering rate that a plan may use [-].
+        solver: Name of the solver, one of `mjdrive.expert.mpc_solver.SOLVERS`.
+        fallback_solver: Solver to take where casadi lacks a plug-in of the first, or None to refuse.
+        max_iterations: Iterations of the solver; a plan that needs more counts as failed [-].
+        tolerance: Error of the conditions of optimality at which a plan counts as found [-].
+        late_after: A solve that takes longer than this is counted as late, no more [s].
+    """
+
+    horizon: float = 2.0
+    offset_tolerance: float = 0.2
+    heading_tolerance: float = 0.3
+    station_tolerance: float = 1.0
+    speed_tolerance: float = 0.5
+    acceleration_tolerance: float = 3.0
+    jerk_tolerance: float = 3.0
+    steering_rate_tolerance: float = 0.4
+    steering_jolt_tolerance: float = 1.0
+    lane_tolerance: float = 0.05
+    grip_tolerance: float = 0.3
+    lane_margin: float = 0.2
+    lateral_acceleration: float = 3.5
+    acceleration: float = 1.8
+    braking: float = 2.0
+    max_jerk: float = 10.0
+    max_braking: float = 7.0
+    steering_rate_share: float = 0.9
+    solver: str = "fatrop"
+    fallback_solver: str | None = None
+    max_iterations: int = 30
+    tolerance: float = 1e-4
+    late_after: float = 0.05
+
+    def __post_init__(self) -> None:
+        for name in ("horizon", "lateral_acceleration", "acceleration", "braking", "max_jerk"):
+            value = getattr(self, name)
+            require(value > 0, f"{name} is {value}; expected a positive number.")
+        for name in self.__slots__:
+            if name.endswith("tolerance"):
+                value = getattr(self, name)
+                require(value > 0, f"{name} is {value}; expected a positive number.")
+        require(
+            0 < self.steering_rate_share <= 1,
+            f"steering_rate_share is {self.steering_rate_share}; expected a share in (0, 1].",
+        )
+        require(
+            self.max_braking >= self.braking,
+            f"max_braking is {self.max_braking} m/s2; expected at least braking ({self.braking} m/s2).",
+        )
+        require(
+            self.max_iterations >= 1,
+            f"max_iterations is {self.max_iterations}; expected at least 1.",
+        )

@@ -1,0 +1,217 @@
+"""The MPC expert: plans two seconds ahead with a model of the car, and drives the first tenth of the plan.
+
+Ten times a second it lays a reference along the route (`speed_profile`), takes the state of the car in Frenet
+coordinates, and solves a nonlinear optimal control problem (`mpc_problem`) for steering and acceleration. A decision
+without a plan is made by the PID expert, and counted.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from jaxtyping import Float
+
+from mjdrive.config import MpcConfig, PidConfig
+from mjdrive.datatypes import Action, Route, Situation, Town
+from mjdrive.expert import reference
+from mjdrive.expert.frenet import frenet_state
+from mjdrive.expert.mpc_problem import MpcProblem
+from mjdrive.expert.mpc_solver import MpcSolver, SolveCounts, SolveStatus
+from mjdrive.expert.pid import PidExpert
+from mjdrive.expert.speed_profile import Reference, SpeedProfile
+from mjdrive.vehicle.bicycle import BicycleState
+from mjdrive.vehicle.drivetrain import Drivetrain
+from mjdrive.vehicle.parameters import VehicleParameters
+
+HOLD_SPEED = 0.15
+"""A car slower than this at its resting place is held by the brake [m/s]."""
+
+HOLD_DISTANCE = 0.4
+"""It has come to its resting place when that is this near [m]."""
+
+HANDOVER_TIME = 0.5
+"""Time constant with which the PID's own action takes the place of the last plan's [s]."""
+
+DISTURBED = 1.5
+"""Acceleration this far from the plan means that something else was driven [m/s2]."""
+
+TRUST = 0.3
+"""Share of a smaller difference that is taken for real: the body pitches, so speed alone misleads [-]."""
+
+
+class _Plan(NamedTuple):
+    """What was decided last time, to go on from.
+
+    Attributes:
+        time: When [s].
+        speed: Of the car then [m/s].
+        variables: The whole plan.
+        following: State that it foresaw for the next decision.
+    """
+
+    time: float
+    speed: float
+    variables: Float[np.ndarray, " X"]
+    following: BicycleState
+
+
+class MpcExpert:
+    """A `Policy[Situation]`: knows the route and the lights, and a model of its car.
+
+    Its solver is bound by iterations, never by the clock, so the same seed gives the same bytes on any load; a solve that
+    took long is counted (`solves.late`), no more.
+
+    Attributes:
+        config: Weights, limits and solver.
+        solves: How its solves have ended since it was made.
+
+    Args:
+        town: Where it drives.
+        parameters: Numbers of the car.
+        config: Weights, limits and solver.
+        control_interval: Time between two decisions [s].
+        fallback: Settings of the PID expert that decides where no plan was found; its speeds and its law of where to stop
+            are those of the plans, too.
+
+    Raises:
+        SolverError: If casadi lacks the solver and the settings name no stand-in.
+    """
+
+    name = "mpc"
+
+    def __init__(
+        self,
+        town: Town,
+        *,
+        parameters: VehicleParameters | None = None,
+        config: MpcConfig | None = None,
+        control_interval: float = 0.1,
+        fallback: PidConfig | None = None,
+    ) -> None:
+        self.config = config or MpcConfig()
+        self._law = fallback or PidConfig()
+        self._town = town
+        self._car = parameters or VehicleParameters.default()
+        self._drivetrain = Drivetrain.of(self._car)
+        self._interval = control_interval
+        self._problem = MpcProblem(self.config, self._car, interval=control_interval)
+        self._solver = MpcSolver(self._problem, self.config)
+        self._pid = PidExpert(
+            town, parameters=self._car, config=self._law, control_interval=control_interval
+        )
+        self.reset(0)
+
+    @property
+    def solves(self) -> SolveCounts:
+        """How its solves have ended since it was made."""
+        return self._solver.counts
+
+    def reset(self, seed: int) -> None:
+        """Forget the past; the expert is deterministic, so the seed has no effect."""
+        self._pid.reset(seed)
+        self._route: Route | None = None
+        self._plan: _Plan | None = None
+        self._gap = np.zeros(2)
+
+    def act(self, view: Situation) -> Action:
+        """Follow the route for the next control interval."""
+        if view.route is not self._route:
+            self._take_route(view.route)
+        stand_in = self._pid.act(view)
+        distance = reference.distance_to_stop(
+            view,
+            self._stops,
+            nose_ahead=self._car.length - self._car.rear_overhang,
+            config=self._law,
+        )
+        if self._is_at_rest(view, distance):
+            self._plan, self._gap = None, np.zeros(2)
+            return Action(acceleration=-1.0, steering=0.0)
+        planned = self._planned(view, distance)
+        own = np.array([stand_in.acceleration, stand_in.steering])
+        if planned is None:
+            self._plan = None
+            self._gap *= math.exp(-self._interval / HANDOVER_TIME)
+            acceleration, steering = np.clip(own + self._gap, -1.0, 1.0)
+            return Action(acceleration=float(acceleration), steering=float(steering))
+        self._gap = np.array([planned.acceleration, planned.steering]) - own
+        return planned
+
+    def _take_route(self, route: Route) -> None:
+        self._route = route
+        self._plan = None
+        self._stops = reference.stop_lines(self._town, route)
+        self._profile = SpeedProfile(
+            self._town,
+            route,
+            config=self._law,
+            braking=self.config.braking,
+            acceleration=self.config.acceleration,
+            max_braking=self.config.max_braking,
+        )
+
+    def _is_at_rest(self, view: Situation, distance: float | None) -> bool:
+        """Whether the car has come to where it must wait."""
+        return distance is not None and distance < HOLD_DISTANCE and view.vehicle.speed < HOLD_SPEED
+
+    def _planned(self, view: Situation, distance: float | None) -> Action | None:
+        """The first action of a new plan, or None if there is none."""
+        start = self._start(view)
+        goal = self._profile.reference(
+            station=view.station,
+            speed=start.speed,
+            distance_to_stop=distance,
+            num_steps=self._problem.num_steps,
+            interval=self._interval,
+        )
+        full_throttle = self._drivetrain.acceleration(1.0, start.speed)
+        solution = self._solver.solve(
+            self._guess(start, goal),
+            self._problem.parameters(start, goal),
+            self._problem.bounds(start, full_throttle=full_throttle),
+        )
+        if solution.status is not SolveStatus.SOLVED:
+            return None
+        following = self._problem.state(solution.variables, 1)
+        self._plan = _Plan(view.time, start.speed, solution.variables, following)
+        return self._action(start, following)
+
+    def _start(self, view: Situation) -> BicycleState:
+        """State of the car; acceleration and steering rate from what was planned, unless something else was driven."""
+        vehicle, car, config = view.vehicle, self._car, self.config
+        speed = max(vehicle.speed, 0.0)
+        angle = float(
+            np.clip(vehicle.steering_angle, -car.max_steering_angle, car.max_steering_angle)
+        )
+        acceleration = rate = 0.0
+        plan = self._plan
+        if plan is not None and abs(view.time - plan.time - self._interval) < 1e-6:
+            surprise = (speed - plan.following.speed) / self._interval
+            acceleration = plan.following.acceleration + TRUST * surprise
+            if abs(surprise) > DISTURBED:
+                acceleration = (speed - plan.speed) / self._interval
+            limit = config.steering_rate_share * car.max_steering_rate
+            missed = (angle - plan.following.steering_angle) / self._interval
+            rate = float(np.clip(plan.following.steering_rate + missed, -limit, limit))
+        offset, heading_error = frenet_state(view)
+        return BicycleState(0.0, offset, heading_error, speed, acceleration, angle, rate)
+
+    def _guess(self, start: BicycleState, goal: Reference) -> Float[np.ndarray, " X"]:
+        """Where the solver begins: the last plan, one interval later, or the reference itself."""
+        if self._plan is not None:
+            return self._problem.shifted(self._plan.variables, start)
+        return self._problem.along(start, goal)
+
+    def _action(self, start: BicycleState, following: BicycleState) -> Action:
+        """Pedal and wheel that bring the car from one state to the next, against the lag of its pedals."""
+        speed = 0.5 * (start.speed + following.speed)
+        wanted = following.acceleration
+        lag = self._drivetrain.lag(wanted, speed)
+        reached = 1.0 - math.exp(-self._interval / lag) if lag > 0 else 1.0
+        ahead = start.acceleration + (wanted - start.acceleration) / reached
+        return Action(
+            acceleration=self._drivetrain.pedal(ahead, speed),
+            steering=float(
+                np.clip(following.steering_angle / self._car.max_steering_angle, -1.0, 1.0)
+            ),
+        )
