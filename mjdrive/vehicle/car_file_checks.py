@@ -37,6 +37,8 @@ def file_faults(spec: mujoco.MjSpec) -> Iterator[str]:
             )
     if spec.compiler.discardvisual:
         yield "<compiler> sets discardvisual, which would discard the town: leave it out"
+    if spec.pairs:
+        yield f"<contact> holds {len(spec.pairs)} pairs; expected none: mjdrive pairs the tyres with the road"
     strangers = [
         f"{kind} '{element.name}'"
         for kind in ("bodies", "geoms", "lights", "cameras", "sites")
