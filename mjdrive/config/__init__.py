@@ -1,11 +1,10 @@
 """Frozen settings, and how they are written to and read from JSON."""
 
+from mjdrive.config.collecting import CollectConfig, DisturbanceConfig, ExpertName
 from mjdrive.config.json_files import from_dict, read_json, require, to_json, write_json
 from mjdrive.config.mpc import MpcConfig
 from mjdrive.config.settings import (
     BevConfig,
-    CollectConfig,
-    DisturbanceConfig,
     ExtraLayer,
     PidConfig,
     RulesConfig,
@@ -17,6 +16,7 @@ __all__ = [
     "BevConfig",
     "CollectConfig",
     "DisturbanceConfig",
+    "ExpertName",
     "ExtraLayer",
     "MpcConfig",
     "PidConfig",
