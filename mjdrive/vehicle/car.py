@@ -38,6 +38,10 @@ class Car:
         self.tyre_geoms = frozenset(model.geom(f"tyre_{wheel}").id for wheel in WHEELS)
         self._model = model
         self._data = data
+        # What may sleep need not be placed anew at every step; so a town costs little more than a plane. Nothing that
+        # moves does sleep, and its motion is the same bit by bit.
+        model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_SLEEP
+        model.tree_sleep_policy[:] = mujoco.mjtSleepPolicy.mjSLEEP_NEVER
         self._tyres = Tyres(model, parameters)
         self._body = model.body("car").id
         self._spin_dof = np.array([model.joint(f"spin_{wheel}").dofadr[0] for wheel in WHEELS])

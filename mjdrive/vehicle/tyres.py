@@ -30,12 +30,15 @@ class Tyres:
     def __init__(self, model: mujoco.MjModel, parameters: VehicleParameters) -> None:
         wheels = [model.body(f"wheel_{wheel}").id for wheel in WHEELS]
         self._model = model
-        self._pairs = np.array([model.pair(f"tyre_{wheel}").id for wheel in WHEELS])
+        first, *_, last = pairs = [model.pair(f"tyre_{wheel}").id for wheel in WHEELS]
+        assert pairs == list(range(first, last + 1)), "the pairs of the tyres follow each other"
         self._inverse_weight = model.body_invweight0[wheels, 0]
-        self._solimp = model.pair_solimp  # views of the model
-        self._solref = model.pair_solref
-        self._solref_friction = model.pair_solreffriction
-        self._solref_friction[self._pairs, 0] = -1.0
+        # Views of the model: rows of neighbours are written several times as fast as rows by number.
+        self._impedance = model.pair_solimp[first : last + 1, :2]
+        self._spring_row = model.pair_solref[first : last + 1, 0]
+        self._damping_row = model.pair_solref[first : last + 1, 1]
+        self._slip_row = model.pair_solreffriction[first : last + 1, 1]
+        model.pair_solreffriction[first : last + 1, 0] = -1.0
         self._spring = parameters.tyre_vertical_stiffness
         self._damping = parameters.tyre_vertical_damping
         self._slip_damping = STEP_DAMPING / model.opt.timestep
@@ -51,17 +54,18 @@ class Tyres:
         Args:
             speeds: Larger of travel and rolling speed, in the order of `WHEELS` [m/s].
         """
-        friction_regularization = speeds.clip(MIN_SPEED, MAX_SPEED) * self._per_speed
-        ratio = max(IMPEDANCE_RATIO, MIN_NORMAL_REGULARIZATION / friction_regularization.min())
+        limited = np.minimum(np.maximum(speeds, MIN_SPEED), MAX_SPEED)
+        friction_regularization = limited * self._per_speed
+        smallest = min(friction_regularization.tolist())
+        ratio = max(IMPEDANCE_RATIO, MIN_NORMAL_REGULARIZATION / smallest)
         regularization = ratio * friction_regularization
         impedance = self._inverse_weight / (self._inverse_weight + regularization)
         scale = regularization * impedance
         self._model.opt.impratio = ratio
-        self._solimp[self._pairs, 0] = impedance
-        self._solimp[self._pairs, 1] = impedance
-        self._solref[self._pairs, 0] = -self._spring * scale
-        self._solref[self._pairs, 1] = -self._damping * scale
-        self._solref_friction[self._pairs, 1] = -self._slip_damping * impedance
+        self._impedance[:] = impedance[:, np.newaxis]
+        np.multiply(scale, -self._spring, out=self._spring_row)
+        np.multiply(scale, -self._damping, out=self._damping_row)
+        np.multiply(impedance, -self._slip_damping, out=self._slip_row)
 
     def _soften_other_contacts(self, geoms: list[int]) -> None:
         """Give a tyre the same spring against kerbs and walls; a rigid one would kick three times as hard."""
