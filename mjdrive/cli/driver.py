@@ -28,12 +28,14 @@ class Driver:
         digest: SHA-256 of its weights, hexadecimal; empty for the expert.
         settings: Its settings as JSON text.
         pilot: The trained policy, or None for the expert.
+        learnt_car: Name of the car whose demonstrations it learnt from; empty for the expert.
     """
 
     name: str
     settings: str
     digest: str = ""
     pilot: "Pilot | None" = None
+    learnt_car: str = ""
 
     def drive(
         self,
@@ -63,6 +65,7 @@ class Driver:
             "town_digest": town.digest,
             "car": car.name,
             "car_digest": car.digest,
+            "policy_car": self.learnt_car,
             "policy_digest": self.digest,
             "settings": json.dumps(settings, sort_keys=True),
             **versions.to_metadata(versions.versions()),
@@ -102,6 +105,7 @@ def find_driver(name: str | None, runs: Path, *, preset: str | None = None) -> D
         return Driver(EXPERT, settings=config.to_json(config.PidConfig()))
     from mjdrive.learning import pilot  # torch takes a second
     from mjdrive.learning import runs as run_folders
+    from mjdrive.learning.training import Source
     from models import checkpoint, serialization
 
     folder = run_folders.newest(runs) if name is None else run_folders.find(name, runs)
@@ -111,4 +115,5 @@ def find_driver(name: str | None, runs: Path, *, preset: str | None = None) -> D
         settings=serialization.to_json(policy.config),
         digest=store.digest((folder / checkpoint.MODEL).read_bytes()),
         pilot=policy,
+        learnt_car=config.read_json(Source, folder / run_folders.SOURCE).car,
     )

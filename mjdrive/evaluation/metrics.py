@@ -13,6 +13,7 @@ from mjdrive.evaluation import lane_keeping
 from mjdrive.evaluation.branches import branches_taken
 from mjdrive.evaluation.lane_keeping import LaneKeeping
 from mjdrive.town import signals
+from mjdrive.vehicle import cars
 
 RED_LIGHT_FACTOR = 0.7
 """What a red light run leaves of the score [-] (Leaderboard 1.0; the paper's only penalty)."""
@@ -33,6 +34,7 @@ class DriveSummary:
 
     Attributes:
         town: Name of the town.
+        car: Name of the car; drives from before one could choose were the default car's.
         policy: Name of the policy that drove.
         seed: Seed of the drive [-].
         steps: Control steps [-].
@@ -53,6 +55,7 @@ class DriveSummary:
     """
 
     town: str
+    car: str
     policy: str
     seed: int
     steps: int
@@ -88,6 +91,7 @@ def summarise(episode: Episode, town: Town) -> DriveSummary:
     stuck = stands(episode) & ~waits_at_light(episode, town)
     return DriveSummary(
         town=episode.town,
+        car=episode.metadata.get("car", cars.DEFAULT),
         policy=episode.policy,
         seed=episode.seed,
         steps=len(episode.time),
