@@ -90,7 +90,7 @@ def drive(
     closing_table(
         f"{driver.name} in {town.name}, seed {seed}",
         {
-            "car": _car(car.name, driver.learnt_car),
+            "car": driver.car_note(car),
             "distance": f"{summary.distance_m:,.1f} m in {summary.duration_s:,.1f} s",
             "red lights": summary.red_lights,
             "collisions": summary.collisions,
@@ -108,11 +108,6 @@ def drive(
         if driver.name != "pid"
         else f"mjdrive drive --town {town.name} --seed {seed + 1}",
     )
-
-
-def _car(name: str, learnt: str) -> str:
-    """Say which car drove, and which one the policy knows if that is another."""
-    return name if learnt in ("", name) else f"{name}; the policy learnt from {learnt}"
 
 
 def _offset(rms: float | None) -> str:

@@ -29,6 +29,7 @@ class Driver:
         settings: Its settings as JSON text.
         pilot: The trained policy, or None for the expert.
         learnt_car: Name of the car whose demonstrations it learnt from; empty for the expert.
+        learnt_car_digest: Digest of that car; empty if it is not known.
     """
 
     name: str
@@ -36,6 +37,14 @@ class Driver:
     digest: str = ""
     pilot: "Pilot | None" = None
     learnt_car: str = ""
+    learnt_car_digest: str = ""
+
+    def car_note(self, car: CarModel) -> str:
+        """Name a car for people, and the one that the policy learnt from if that is another."""
+        if self.learnt_car_digest in ("", car.digest) and self.learnt_car in ("", car.name):
+            return car.name
+        other = "another version of it" if self.learnt_car == car.name else self.learnt_car
+        return f"{car.name}; the policy learnt from {other}"
 
     def drive(
         self,
@@ -110,10 +119,12 @@ def find_driver(name: str | None, runs: Path, *, preset: str | None = None) -> D
 
     folder = run_folders.newest(runs) if name is None else run_folders.find(name, runs)
     policy = pilot.load(folder, preset=preset)
+    source = config.read_json(Source, folder / run_folders.SOURCE)
     return Driver(
         policy.name,
         settings=serialization.to_json(policy.config),
         digest=store.digest((folder / checkpoint.MODEL).read_bytes()),
         pilot=policy,
-        learnt_car=config.read_json(Source, folder / run_folders.SOURCE).car,
+        learnt_car=source.car,
+        learnt_car_digest=source.car_digest,
     )
