@@ -41,7 +41,9 @@ class Driver:
 
     def car_note(self, car: CarModel) -> str:
         """Name a car for people, and the one that the policy learnt from if that is another."""
-        if self.learnt_car_digest in ("", car.digest) and self.learnt_car in ("", car.name):
+        if car.digest == self.learnt_car_digest or (
+            not self.learnt_car_digest and self.learnt_car in ("", car.name)
+        ):
             return car.name
         other = "another version of it" if self.learnt_car == car.name else self.learnt_car
         return f"{car.name}; the policy learnt from {other}"

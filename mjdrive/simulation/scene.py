@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 
 from mjdrive.datatypes import Town
-from mjdrive.errors import TownFormatError
+from mjdrive.errors import CarError, TownFormatError
 from mjdrive.simulation.blocks import UNSEEN_GROUP
 from mjdrive.simulation.facades import add_houses
 from mjdrive.simulation.greenery import add_trees
@@ -42,11 +42,26 @@ def build_scene(
     Returns:
         Scene. What the car can hit: `road`, `kerb_<n>`, `building_<n>`, `pole_<light>`, `sign_<id>`, `tree_<n>` and
         `object_<n>`. For the eye, among others: `asphalt`, `marking_<color>`, `stop_bars`, `lamp_<light>_<signal>`.
+
+    Raises:
+        CarError: If the car file has a name of the town's.
     """
+    spec = car_on_road(timestep=timestep, car=car)
+    try:
+        _add_town(spec, town, settings)
+    except ValueError as error:
+        if car is None or "repeated name" not in str(error):
+            raise
+        raise CarError(
+            f"Car '{car}' has a name that town '{town.name}' needs: {error}. Give that part of the car another name."
+        ) from error
+    return spec
+
+
+def _add_town(spec: mujoco.MjSpec, town: Town, settings: TownSettings) -> None:
     scenery = settings.scenery
     layout = lay_out(town, scenery)
     rng = np.random.default_rng([scenery.seed, _LOOKS])
-    spec = car_on_road(timestep=timestep, car=car)
     spec.modelname = town.name
     spec.geom(ROAD).group = UNSEEN_GROUP
     set_stage(spec, town)
@@ -58,7 +73,6 @@ def build_scene(
     add_objects(spec, standing(town), rng=rng)
     add_signs(spec, town.signs)
     add_lights(spec, town.lights.values(), height=scenery.pole_height)
-    return spec
 
 
 def compile_scene(spec: mujoco.MjSpec) -> mujoco.MjModel:
