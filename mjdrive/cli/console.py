@@ -1,5 +1,7 @@
 """What the commands show while they work and when they are done."""
 
+import signal
+import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 
@@ -70,6 +72,20 @@ def stages(name: str, count: int) -> Iterator[Callable[[str], None]]:
 
         yield begin
         bars.update(task, description=escape(name), completed=count)
+
+
+@contextmanager
+def ended_by_sigterm() -> Iterator[None]:
+    """Let SIGTERM end the work inside as Ctrl-C does: what is unfinished is cleaned up."""
+
+    def leave(number: int, frame: object) -> None:
+        sys.exit(128 + number)
+
+    before = signal.signal(signal.SIGTERM, leave)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def closing_table(title: str, rows: Mapping[str, object], *, next_command: str) -> None:

@@ -104,7 +104,7 @@ def check(*, name: str, flatten: bool) -> None:
 )
 def import_map(*, file: Path, name: str, flatten: bool, seed: int) -> None:
     """Make a town out of an OpenDRIVE map (1.4 to 1.8)."""
-    from mjdrive.cli.console import stages
+    from mjdrive.cli.console import ended_by_sigterm, stages
     from mjdrive.cli.town_tables import findings_table, report_table
     from mjdrive.simulation.town_files import new_town
     from mjdrive.town import check as checks
@@ -121,15 +121,9 @@ def import_map(*, file: Path, name: str, flatten: bool, seed: int) -> None:
         flatten=flatten,
     )
     road_map = opendrive.moved(road_map, settings.origin)
-    with stages(name, 4) as on_stage:
+    with ended_by_sigterm(), stages(name, 4) as on_stage:
         town, folder = new_town(
-            name,
-            document,
-            road_map,
-            settings,
-            seed=seed,
-            report=report,
-            on_stage=on_stage,
+            name, document, road_map, settings, seed=seed, report=report, on_stage=on_stage
         )
         on_stage("check")
         findings = checks.check(town, road_map)
@@ -145,7 +139,7 @@ def import_map(*, file: Path, name: str, flatten: bool, seed: int) -> None:
 def export(*, name: str, file: Path, overwrite: bool) -> None:
     """Copy a town out: its OpenDRIVE map (.xodr), its MuJoCo scene (.xml) or its picture (.png)."""
     from mjdrive.cli.console import closing_table
-    from mjdrive.simulation.town_files import export_town
+    from mjdrive.simulation.town_export import export_town
 
     export_town(name, file, overwrite=overwrite)
     closing_table(f"{name}, exported", {"file": file}, next_command="mjdrive towns list")
@@ -159,7 +153,7 @@ def export(*, name: str, file: Path, overwrite: bool) -> None:
 @click.option("--name", help="Name of the new town. [default: generated-<junctions>-<seed>]")
 def generate(*, seed: int, num_junctions: int, name: str | None) -> None:
     """Make a new town of T- and X-junctions: the same seed makes the same town."""
-    from mjdrive.cli.console import stages
+    from mjdrive.cli.console import ended_by_sigterm, stages
     from mjdrive.simulation.town_files import new_town
     from mjdrive.town import opendrive, town_folder
     from mjdrive.town.settings import SceneryConfig, TownSettings
@@ -174,7 +168,7 @@ def generate(*, seed: int, num_junctions: int, name: str | None) -> None:
         description=f"Generated: {num_junctions} junctions, seed {seed}.",
         scenery=SceneryConfig(seed=seed),
     )
-    with stages(name, 3) as on_stage:
+    with ended_by_sigterm(), stages(name, 3) as on_stage:
         made = new_town(
             name, opendrive.write(road_map), road_map, settings, seed=seed, on_stage=on_stage
         )

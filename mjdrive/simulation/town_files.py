@@ -1,21 +1,22 @@
-"""The files of a town folder: written together for a new town, copied out one by one."""
+"""The folder of a new town: all of its files, or none.
+
+MuJoCo has no part in this: it would take longer to load than a map takes to read. Drives build the scene anew, and
+`town_export` writes it for those who want to see it.
+"""
 
 from collections.abc import Callable
 from pathlib import Path
 
 from mjdrive.bev.rasters import require_drawable
-from mjdrive.config import SimulationConfig, write_json
+from mjdrive.config import write_json
 from mjdrive.datatypes import Town
-from mjdrive.errors import ConfigError, NameTakenError
-from mjdrive.files import write_atomically
-from mjdrive.simulation.scene import build_scene, scene_xml
 from mjdrive.town import library, picture
+from mjdrive.town.network import build_town
 from mjdrive.town.opendrive.read_report import ReadReport
 from mjdrive.town.opendrive.road_map import RoadMap
 from mjdrive.town.settings import TownSettings
 from mjdrive.town.town_folder import fill, new_town_folder
 
-SCENE_FILE = "scene.xml"
 REPORT_FILE = "import.json"
 
 
@@ -29,7 +30,7 @@ def new_town(
     report: ReadReport | None = None,
     on_stage: Callable[[str], None] = lambda stage: None,
 ) -> tuple[Town, Path]:
-    """Make a town out of an OpenDRIVE map: map, settings, scene and picture, or nothing at all.
+    """Make a town out of an OpenDRIVE map: map, settings and picture, or nothing at all.
 
     Args:
         name: Name of the new town.
@@ -46,60 +47,16 @@ def new_town(
     Raises:
         ConfigError: If the name is none for a town.
         NameTakenError: If there is a town of that name.
-        TownFormatError: If the map cannot be driven.
+        TownFormatError: If the map cannot be driven, or is too large to be drawn.
     """
     with new_town_folder(name) as folder:
-        on_stage("routes")
-        town = fill(folder, document, road_map, settings, seed=seed)
+        on_stage("lanes and lights")
+        town = build_town(road_map, name=name, timing=settings.lights, digest="")
         require_drawable(town)
-        on_stage("scene")
-        write_scene(town, settings, folder / SCENE_FILE)
+        on_stage("routes")
+        town = fill(folder, document, town, settings, seed=seed)
         on_stage("picture")
         picture.save(town, folder / library.PICTURE_FILE)
         if report is not None:
             write_json(report, folder / REPORT_FILE)
     return town, library.folder_of(name)
-
-
-def write_scene(town: Town, settings: TownSettings, path: Path) -> None:
-    """Write the MuJoCo scene of a town as MJCF.
-
-    Args:
-        town: Road network.
-        settings: What stands beside the roads.
-        path: File to write.
-    """
-    spec = build_scene(town, settings, timestep=SimulationConfig().timestep)
-    write_atomically(path, scene_xml(spec).encode())
-
-
-def export_town(name: str, file: Path, *, overwrite: bool = False) -> None:
-    """Copy a town out; the ending of the file says what: .xodr, .xml or .png.
-
-    Args:
-        name: Name of the town.
-        file: File to write.
-        overwrite: Whether to replace a file that is there.
-
-    Raises:
-        UnknownNameError: If there is no such town.
-        NameTakenError: If the file is there and is not to be replaced.
-        ConfigError: If the ending says nothing.
-    """
-    town, settings = library.load(name), library.load_settings(name)
-    if file.exists() and not overwrite:
-        raise NameTakenError(
-            f"'{file}' is there already. Give another file, or replace it with --overwrite."
-        )
-    match file.suffix:
-        case ".xodr":
-            write_atomically(file, (library.folder_of(name) / library.MAP_FILE).read_bytes())
-        case ".xml":
-            write_scene(town, settings, file)
-        case ".png":
-            picture.save(town, file)
-        case other:
-            raise ConfigError(
-                f"Cannot export '{file}': expected a file that ends in .xodr (OpenDRIVE map), .xml (MuJoCo "
-                f"scene) or .png (picture), not '{other}'."
-            )

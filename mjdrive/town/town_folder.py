@@ -4,6 +4,7 @@ import os
 import re
 import shutil
 import tempfile
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -16,8 +17,6 @@ from mjdrive.datatypes import Town
 from mjdrive.errors import NameTakenError, RouteError
 from mjdrive.town import library
 from mjdrive.town.demonstrations import Waypoints, demonstration_routes
-from mjdrive.town.network import build_town
-from mjdrive.town.opendrive.road_map import RoadMap
 from mjdrive.town.settings import TownSettings
 
 NUM_ROUTES = 10
@@ -25,6 +24,12 @@ NUM_ROUTES = 10
 
 ROUTE_LENGTH = 800.0
 """Their length [m]; the paper's are 811 m on average."""
+
+UNFINISHED = ".unfinished-town-"
+"""How the names of hidden folders begin in which towns are made."""
+
+_ABANDONED = 24 * 3600.0
+"""Age from which nobody works in such a folder any more [s]."""
 
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 
@@ -46,7 +51,8 @@ def new_town_folder(name: str, *, parent: Path = library.OWN_TOWNS) -> Iterator[
     """
     require_new_name(name, parent=parent)
     parent.mkdir(parents=True, exist_ok=True)
-    hidden = Path(tempfile.mkdtemp(prefix=f".{name}-", dir=parent))
+    _sweep(parent)
+    hidden = Path(tempfile.mkdtemp(prefix=UNFINISHED, dir=parent))
     try:
         folder = hidden / name
         folder.mkdir()
@@ -55,6 +61,13 @@ def new_town_folder(name: str, *, parent: Path = library.OWN_TOWNS) -> Iterator[
         os.rename(folder, parent / name)  # noqa: PTH104  Path.rename replaces an empty folder
     finally:
         shutil.rmtree(hidden, ignore_errors=True)
+
+
+def _sweep(parent: Path) -> None:
+    """Remove what commands that were killed have left; those that still run are younger."""
+    for folder in parent.glob(f"{UNFINISHED}*"):
+        if time.time() - folder.stat().st_mtime > _ABANDONED:
+            shutil.rmtree(folder, ignore_errors=True)
 
 
 def require_new_name(name: str, *, parent: Path = library.OWN_TOWNS) -> None:
@@ -83,33 +96,27 @@ def require_new_name(name: str, *, parent: Path = library.OWN_TOWNS) -> None:
         )
 
 
-def fill(
-    folder: Path, document: bytes, road_map: RoadMap, settings: TownSettings, *, seed: int
-) -> Town:
+def fill(folder: Path, document: bytes, town: Town, settings: TownSettings, *, seed: int) -> Town:
     """Write map.xodr and town.json; a town without routes gets some, so that demonstrations can be collected.
 
     Args:
         folder: Empty folder of the town.
         document: OpenDRIVE map.
-        road_map: What it says.
+        town: What was built from it, without a digest.
         settings: What town.json shall say.
         seed: Decides the routes.
 
     Returns:
         The town as it will be loaded.
-
-    Raises:
-        TownFormatError: If the map cannot be driven.
     """
-    town = build_town(road_map, name=folder.name, timing=settings.lights, digest="")
     if not settings.routes:
-        settings = replace(settings, routes=_routes(town, seed))
+        settings = replace(settings, routes=found_routes(town, seed=seed))
     (folder / library.MAP_FILE).write_bytes(document)
     write_json(settings, folder / library.SETTINGS_FILE)
     return replace(town, digest=library.digest_of(folder))
 
 
-def _routes(town: Town, seed: int) -> dict[str, Waypoints]:
+def found_routes(town: Town, *, seed: int) -> dict[str, Waypoints]:
     """Find routes; none where nobody can drive that far, which `mjdrive towns check` explains."""
     rng = np.random.default_rng(seed)
     try:

@@ -2,6 +2,7 @@
 
 import json
 import re
+import signal
 from dataclasses import replace
 from pathlib import Path
 
@@ -61,14 +62,15 @@ def test_list_names_every_town_here() -> None:
 def test_a_generated_town_is_whole_and_the_same_for_the_same_seed(workplace: Path) -> None:
     run(*SMALL)
     first = written(workplace)
-    names = {"map.xodr", "town.json", "scene.xml", "map.png"}
+    names = {"map.xodr", "town.json", "map.png"}
     assert set(first) == {f"towns/small/{name}" for name in names}
     for file in (workplace / "towns/small").iterdir():
         file.unlink()
     (workplace / "towns/small").rmdir()
     run(*SMALL)
     assert written(workplace) == first
-    mujoco.MjModel.from_xml_path("towns/small/scene.xml")
+    run("towns", "export", "small", "scene.xml")
+    mujoco.MjModel.from_xml_path("scene.xml")
 
 
 def test_a_map_that_is_exported_and_imported_drives_the_same(
@@ -166,16 +168,20 @@ def test_mistakes_are_told_in_one_line_and_leave_nothing_behind(
     assert {path.name for path in (workplace / "towns").iterdir()} == {"taken"}
 
 
-def test_an_import_that_fails_half_way_leaves_nothing_behind(
-    workplace: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_an_import_that_is_stopped_half_way_leaves_nothing_behind(
+    workplace: Path, monkeypatch: pytest.MonkeyPatch, number: int, status: int
 ) -> None:
-    def fail(*_: object) -> None:
-        raise KeyboardInterrupt
+    def stop(*_: object) -> None:
+        assert [path.name for path in (workplace / "towns").glob(".*")]
+        signal.raise_signal(number)
 
-    monkeypatch.setattr("mjdrive.town.picture.save", fail)
-    assert invoke(*SMALL).exit_code == 130
+    before = signal.getsignal(signal.SIGTERM)
+    monkeypatch.setattr("mjdrive.town.picture.save", stop)
+    assert invoke(*SMALL).exit_code == status
     assert written(workplace) == {}
     assert list((workplace / "towns").iterdir()) == []
+    assert signal.getsignal(signal.SIGTERM) is before
 
 
 def test_a_map_of_a_survey_is_moved_and_names_are_shown_as_they_are(
