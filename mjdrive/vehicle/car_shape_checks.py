@@ -55,8 +55,8 @@ def _body_faults(model: mujoco.MjModel, data: mujoco.MjData) -> Iterator[str]:
     place, turn = data.body("car").xpos, data.body("car").xmat
     if not (np.allclose(place, 0.0) and np.allclose(turn, np.eye(3).ravel())):
         yield (
-            f"the body 'car' begins at {numbers(place)} m or is turned; expected it at the origin: leave out its pos, its "
-            "orientation and alignfree"
+            f"the body 'car' begins at {numbers(place)} m or is turned; expected it at the origin: leave out its pos and "
+            "its orientation"
         )
     mass = float(car.subtreemass[0])
     if not MASSES[0] <= mass <= MASSES[1]:

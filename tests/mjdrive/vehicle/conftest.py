@@ -1,8 +1,11 @@
+from collections.abc import Callable
+from pathlib import Path
+
 import mujoco
 import pytest
 
 from mjdrive.datatypes import Action
-from mjdrive.vehicle.assembly import car_on_road
+from mjdrive.vehicle.assembly import car_on_road, car_path
 from mjdrive.vehicle.car import Car
 
 UPDATE_INTERVAL = 0.02
@@ -12,9 +15,9 @@ STEPS_PER_UPDATE = 4
 class ProvingGround:
     """The car alone on the plane, with something to hold its speed."""
 
-    def __init__(self) -> None:
+    def __init__(self, car: Path | None = None) -> None:
         timestep = UPDATE_INTERVAL / STEPS_PER_UPDATE
-        self.model = car_on_road(timestep=timestep).compile()
+        self.model = car_on_road(timestep=timestep, car=car).compile()
         self.data = mujoco.MjData(self.model)
         self.car = Car(self.model, self.data)
         self.car.place(0.0, 0.0, 0.0)
@@ -38,3 +41,19 @@ class ProvingGround:
 @pytest.fixture
 def ground() -> ProvingGround:
     return ProvingGround()
+
+
+@pytest.fixture
+def my_car(tmp_path: Path) -> Callable[..., Path]:
+    """Writes a car file of one's own: car.xml with some of its text changed."""
+
+    def write(*changes: tuple[str, str]) -> Path:
+        text = car_path().read_text()
+        for old, new in changes:
+            assert old in text
+            text = text.replace(old, new)
+        path = tmp_path / "my_car.xml"
+        path.write_text(text)
+        return path
+
+    return write
