@@ -7,6 +7,15 @@ from collections.abc import Iterable
 class MjdriveError(Exception):
     """A mistake that the user can mend; the command line prints it in one line and exits with status 2."""
 
+    def __reduce__(self) -> tuple[object, ...]:
+        """Let it come over from another process, however its class is made."""
+        return _again, (type(self), *self.args)
+
+
+def _again(kind: type[MjdriveError], *args: object) -> MjdriveError:
+    """Build an error from its message, without what its class makes the message from."""
+    return kind.__new__(kind, *args)
+
 
 class UnknownNameError(MjdriveError):
     """A name that is not one of those known here."""
@@ -61,3 +70,17 @@ class RenderError(MjdriveError):
 
 class SolverError(MjdriveError):
     """A solver that does not exist, or that this installation of casadi lacks."""
+
+
+class MissingPackageError(MjdriveError):
+    """A package that is not installed and that only some commands need."""
+
+    def __init__(self, package: str, *, wanted_for: str) -> None:
+        super().__init__(
+            f"The package '{package}' is not installed; expected it for {wanted_for}. "
+            f"Install it with: pip install {package}"
+        )
+
+
+class WorkerError(MjdriveError):
+    """A process that helped and ended before its work was done."""

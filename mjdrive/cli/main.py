@@ -5,10 +5,12 @@ from typing import Any
 import rich_click as click
 
 import mjdrive
+from mjdrive.cli.car import car
 from mjdrive.cli.collect import collect
 from mjdrive.cli.drive import drive
 from mjdrive.cli.towns import towns
 from mjdrive.cli.train import train
+from mjdrive.cli.tune import tune
 from mjdrive.errors import MjdriveError
 
 EXIT_MISTAKE = 2
@@ -56,5 +58,5 @@ def main() -> None:
     """Run `mjdrive`."""
 
 
-for command in (collect, train, drive, towns):
+for command in (collect, train, drive, tune, towns, car):
     main.add_command(command)

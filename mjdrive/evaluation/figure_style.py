@@ -1,23 +1,7 @@
-"""What all pictures of drives share: style, symbols, titles, and files that are the same for the same drive."""
-
-import io
-from pathlib import Path
-
-from matplotlib.figure import Figure
+"""What all pictures of drives share: symbols and titles."""
 
 from mjdrive.datatypes import Episode, InfractionKind
 from mjdrive.evaluation import metrics
-from mjdrive.files import write_atomically
-
-STYLE = {
-    "font.size": 9.0,
-    "axes.titlesize": 10.0,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "figure.dpi": 150.0,
-    "savefig.dpi": 150.0,
-}
-"""On top of matplotlib's defaults, so that a user's own style does not change the bytes."""
 
 SYMBOLS = {
     InfractionKind.RED_LIGHT: ("red light run", "X", "#d1242f"),
@@ -39,10 +23,3 @@ def title(episode: Episode) -> str:
         f"{distance:,.0f} m in {duration:,.0f} s, "
         f"{len(episode.infractions) or 'no'} infraction{'' if len(episode.infractions) == 1 else 's'}"
     )
-
-
-def save(figure: Figure, path: Path) -> None:
-    """Write a figure without the version of the software that drew it."""
-    picture = io.BytesIO()
-    figure.savefig(picture, format="png", metadata={"Software": None})
-    write_atomically(path, picture.getvalue())

@@ -13,7 +13,8 @@ from matplotlib.ticker import MultipleLocator
 
 from mjdrive.datatypes import Episode, Town
 from mjdrive.evaluation import metrics
-from mjdrive.evaluation.figure_style import STYLE, SYMBOLS, save, title
+from mjdrive.evaluation.figure_style import SYMBOLS, title
+from mjdrive.picture_style import STYLE, save
 from mjdrive.town.surface import lane_polygons
 
 SYMBOL_SPACING, SMALL_SPACING = 0.022, 0.04

@@ -11,7 +11,8 @@ from matplotlib.transforms import offset_copy
 
 from mjdrive.datatypes import Episode, Town
 from mjdrive.evaluation import lane_keeping, metrics
-from mjdrive.evaluation.figure_style import STYLE, SYMBOLS, save, title
+from mjdrive.evaluation.figure_style import SYMBOLS, title
+from mjdrive.picture_style import STYLE, save
 
 LINE_COLOR = "#0550ae"
 """Colour of curves over time."""

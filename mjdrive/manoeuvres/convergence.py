@@ -29,19 +29,20 @@ def changes(reference: Handling, finer: Handling) -> Mapping[str, float]:
 def bars(
     reference: Handling,
     car: Path | None = None,
-    on_stage: Callable[[str], None] = lambda _: None,
+    on_manoeuvre: Callable[[], None] = lambda: None,
 ) -> tuple[Bar, ...]:
     """Hold the figure that changes most against 5 %.
 
     Args:
         reference: The manoeuvres at the timestep that is used.
         car: MJCF; the default car if None.
-        on_stage: Told the name of each manoeuvre before it begins.
+        on_manoeuvre: Called after each manoeuvre.
     """
     found = []
     for divisor in DIVISORS:
         timestep = TIMESTEP / divisor
-        changed = changes(reference, handling.measure(car, timestep=timestep, on_stage=on_stage))
+        finer = handling.measure(car, timestep=timestep, on_manoeuvre=on_manoeuvre)
+        changed = changes(reference, finer)
         worst = max(changed, key=lambda name: abs(changed[name]))
         found.append(
             Bar(

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 from mjdrive.manoeuvres import (
     acceleration,
@@ -70,51 +71,47 @@ class Handling:
         return compared
 
 
-STAGES = (
-    1
-    + len(braking.SPEEDS_KMH)
-    + len(steady_circle.SPEEDS_KMH)
-    + 1
-    + len(standstill.MOST_CREEP_MM)
-    + 1
+NUM_MANOEUVRES = (
+    3 + len(braking.SPEEDS_KMH) + len(steady_circle.SPEEDS_KMH) + len(standstill.MOST_CREEP_MM)
 )
-"""Number of manoeuvres in a `Handling` [-]."""
+"""In a `Handling` [-]."""
+
+_Manoeuvre = TypeVar("_Manoeuvre")
 
 
 def measure(
     car: Path | None = None,
     *,
     timestep: float = TIMESTEP,
-    on_stage: Callable[[str], None] = lambda _: None,
+    on_manoeuvre: Callable[[], None] = lambda: None,
 ) -> Handling:
     """Drive all manoeuvres on the plane.
 
     Args:
         car: MJCF; the default car if None.
         timestep: Of the physics [s].
-        on_stage: Told the name of each manoeuvre before it begins.
+        on_manoeuvre: Called after each.
 
     Returns:
         The recordings.
     """
 
-    def rig(name: str, slope: float = 0.0) -> Rig:
-        on_stage(name)
+    def rig(slope: float = 0.0) -> Rig:
         return Rig.of_car(car, timestep=timestep, slope=slope)
 
+    def done(manoeuvre: _Manoeuvre) -> _Manoeuvre:
+        on_manoeuvre()
+        return manoeuvre
+
     return Handling(
-        acceleration=acceleration.accelerate(rig("acceleration")),
-        stops=tuple(
-            braking.brake(rig(f"braking from {speed} km/h"), speed) for speed in braking.SPEEDS_KMH
-        ),
+        acceleration=done(acceleration.accelerate(rig())),
+        stops=tuple(done(braking.brake(rig(), speed)) for speed in braking.SPEEDS_KMH),
         circles=tuple(
-            steady_circle.circle(rig(f"steady circle at {speed} km/h"), speed)
-            for speed in steady_circle.SPEEDS_KMH
+            done(steady_circle.circle(rig(), speed)) for speed in steady_circle.SPEEDS_KMH
         ),
-        step=step_steer.step(rig("step steer")),
+        step=done(step_steer.step(rig())),
         standstills=tuple(
-            standstill.stand(rig(f"standstill on {100 * slope:.0f} %", slope), slope)
-            for slope in standstill.MOST_CREEP_MM
+            done(standstill.stand(rig(slope), slope)) for slope in standstill.MOST_CREEP_MM
         ),
-        turning_circle=turning_circle.turn(rig("turning circle")),
+        turning_circle=done(turning_circle.turn(rig())),
     )

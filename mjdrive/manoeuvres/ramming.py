@@ -97,6 +97,14 @@ class RammingGround:
         found = [name for name in names if name.split("_")[0] == kind]
         return found[:: max(len(found) // number, 1)][:number]
 
+    def count(self, per_kind: int) -> int:
+        """How many obstacles `ram_all` takes on.
+
+        Args:
+            per_kind: How many of each kind at most [-].
+        """
+        return sum(len(self.obstacles(kind, per_kind)) for kind in KINDS)
+
     def ram(self, obstacle: str) -> Ram | None:
         """Drive into an obstacle from wherever the way to it is free.
 

@@ -11,7 +11,8 @@ from mjdrive.config import SimulationConfig
 from mjdrive.datatypes import Action
 from mjdrive.manoeuvres.bars import Bar
 from mjdrive.manoeuvres.energy import EnergyMeter
-from mjdrive.manoeuvres.rig import UPDATE_INTERVAL, Rig
+from mjdrive.manoeuvres.plant import UPDATE_INTERVAL
+from mjdrive.manoeuvres.rig import Rig
 from mjdrive.vehicle import engine
 
 DURATION = 1000.0  # [s]

@@ -1,7 +1,6 @@
-"""The test rig: the car alone on an endless plane, on a slope if asked for, with a recorder."""
+"""The test rig: the car in MuJoCo, alone on an endless plane, on a slope if asked for."""
 
 import math
-from collections.abc import Callable
 from pathlib import Path
 
 import mujoco
@@ -9,24 +8,19 @@ import numpy as np
 
 from mjdrive.config import SimulationConfig
 from mjdrive.datatypes import Action
-from mjdrive.manoeuvres.recording import Moment, Recording
+from mjdrive.manoeuvres.plant import UPDATE_INTERVAL, Plant
+from mjdrive.manoeuvres.recording import Moment
 from mjdrive.manoeuvres.single_track import SingleTrack
 from mjdrive.vehicle.assembly import ROAD, car_on_road
 from mjdrive.vehicle.car import Car
 from mjdrive.vehicle.engine import require_sane
 
 GRAVITY = 9.81  # [m/s2]
-UPDATE_INTERVAL = (
-    SimulationConfig().car_update_interval
-)  # [s], of the car, the command and the recorder
 TIMESTEP = SimulationConfig().timestep  # [s]
 
-Driver = Callable[[Moment], Action]
-"""Chooses pedals and steering from how the car moves."""
 
-
-class Rig:
-    """The car of a compiled scene, driven by the manoeuvres.
+class Rig(Plant):
+    """The car of a compiled scene.
 
     Args:
         model: Scene of `car_on_road`; the car writes to it, so it belongs to this rig alone.
@@ -35,20 +29,19 @@ class Rig:
         model: The scene.
         data: Its state.
         car: What drives in it.
-        single_track: The same car as one track.
     """
 
     def __init__(self, model: mujoco.MjModel) -> None:
+        single_track = SingleTrack.of(model)  # of the car as it was built, before it drives
         self.model = model
         self.data = mujoco.MjData(model)
-        self.single_track = SingleTrack.of(model)
         self.car = Car(model, self.data)
-        self._steps_per_update = max(round(UPDATE_INTERVAL / model.opt.timestep), 1)
         parameters = self.car.parameters
+        super().__init__(single_track, max_steering_angle=parameters.max_steering_angle)
+        self._steps_per_update = max(round(UPDATE_INTERVAL / model.opt.timestep), 1)
         self._centre_of_gravity = np.array(
             [parameters.centre_of_gravity_ahead, 0.0, parameters.centre_of_gravity_height]
         )
-        self._start_time = 0.0
         self.place()
 
     @staticmethod
@@ -84,39 +77,20 @@ class Rig:
             speed: Forward speed [m/s].
         """
         self.car.place(0.0, 0.0, 0.0, speed=speed)
-        self._start_time = 0.0
 
-    def drive(
-        self,
-        driver: Driver,
-        *,
-        duration: float,
-        until: Callable[[Moment], bool] | None = None,
-    ) -> Recording:
-        """Let somebody drive and record it, from now on.
+    def advance(self, action: Action) -> None:
+        """Drive for one update interval.
 
         Args:
-            driver: Asked fifty times a second.
-            duration: At most [s].
-            until: Ends the manoeuvre early when it says so.
-
-        Returns:
-            The recording; its time begins at 0.
+            action: What to do.
 
         Raises:
             PhysicsError: If the physics has become unstable.
         """
-        self._start_time = self.data.time
-        moments = [self.moment()]
-        for _ in range(round(duration / UPDATE_INTERVAL)):
-            self.car.command(driver(moments[-1]))
-            self.car.update()
-            mujoco.mj_step(self.model, self.data, self._steps_per_update)
-            moments.append(self.moment())
-            if until is not None and until(moments[-1]):
-                break
+        self.car.command(action)
+        self.car.update()
+        mujoco.mj_step(self.model, self.data, self._steps_per_update)
         require_sane(self.data)
-        return Recording.of(moments)
 
     def moment(self) -> Moment:
         """How the car moves now."""
@@ -128,7 +102,7 @@ class Rig:
         velocity = qvel[:3] + np.cross(spin, world_from_car @ self._centre_of_gravity)
         yaw = math.atan2(world_from_car[1, 0], world_from_car[0, 0])
         return Moment(
-            time=self.data.time - self._start_time,
+            time=self.data.time,
             x=float(self.data.qpos[0]),
             y=float(self.data.qpos[1]),
             yaw=yaw,
@@ -138,27 +112,3 @@ class Rig:
             steering_angle=self.car.state().steering_angle,
             roll=math.atan2(world_from_car[2, 1], world_from_car[2, 2]),
         )
-
-
-class SpeedHold:
-    """A cruise control of two terms, for manoeuvres at constant speed.
-
-    Args:
-        speed: To hold [m/s].
-    """
-
-    PROPORTIONAL = 0.25  # [1/(m/s)]
-    INTEGRAL = 0.2  # [1/m]
-    BRAKE_SHARE = 0.2  # of the command that reaches the brake [-]
-
-    def __init__(self, speed: float) -> None:
-        self._speed = speed
-        self._integral = 0.15
-
-    def __call__(self, moment: Moment) -> float:
-        """Acceleration command [-]."""
-        error = self._speed - moment.speed
-        self._integral += self.INTEGRAL * UPDATE_INTERVAL * error
-        self._integral = min(max(self._integral, 0.0), 1.0)
-        command = self.PROPORTIONAL * error + self._integral
-        return min(command, 1.0) if command >= 0 else max(self.BRAKE_SHARE * command, -1.0)

@@ -143,20 +143,27 @@ class SingleTrack:
         return -0.5 * float(np.trace(A)) / self.natural_frequency(speed)
 
     def respond(
-        self, speed: float, time: Float[np.ndarray, " T"], steering_angle: Float[np.ndarray, " T"]
+        self,
+        speed: float,
+        time: Float[np.ndarray, " T"],
+        steering_angle: Float[np.ndarray, " T"],
+        *,
+        start: Float[np.ndarray, " 2"] | None = None,
     ) -> tuple[Float[np.ndarray, " T"], Float[np.ndarray, " T"]]:
-        """Integrate the linear model from straight driving, by the classical Runge-Kutta method.
+        """Integrate the linear model by the classical Runge-Kutta method.
 
         Args:
             speed: Forward speed, constant and over 0 [m/s].
             time: When the steering angle is known, increasing [s].
             steering_angle: Then; in between it is linear [rad].
+            start: Lateral speed [m/s] and yaw rate [rad/s] at the first time; straight driving if None.
 
         Returns:
             Lateral speed of the centre of gravity [m/s] and yaw rate [rad/s] at those times.
         """
         A, B = self.matrices(speed)
         states = np.zeros((len(time), 2))
+        states[0] = 0.0 if start is None else start
         for index, step in enumerate(np.diff(time)):
             state, first, last = states[index], steering_angle[index], steering_angle[index + 1]
             middle = 0.5 * (first + last)

@@ -8,8 +8,9 @@ from jaxtyping import Float
 
 from mjdrive.datatypes import Action
 from mjdrive.manoeuvres.bars import Bar, around
+from mjdrive.manoeuvres.plant import UPDATE_INTERVAL, Plant, SpeedHold
 from mjdrive.manoeuvres.recording import Moment, Recording
-from mjdrive.manoeuvres.rig import GRAVITY, UPDATE_INTERVAL, Rig, SpeedHold
+from mjdrive.manoeuvres.rig import GRAVITY
 from mjdrive.manoeuvres.single_track import SingleTrack
 
 SPEEDS_KMH = (30, 50, 80)
@@ -21,7 +22,7 @@ LIMIT = (0.85, 1.0)  # of the lateral acceleration [g]
 MOST_JUMP = 0.3  # that the lateral acceleration may change within JUMP_TIME [m/s2]
 JUMP_TIME = 0.1  # [s]
 PATIENCE = 60.0  # [s]
-LARGEST_SLIP = 0.35  # beyond it the car spins and the manoeuvre ends [rad]
+LARGEST_SLIP = 0.2  # of the rear axle; beyond it the car spins and the manoeuvre ends [rad]
 AVERAGED = 0.5  # window of the limit [s]
 
 
@@ -42,7 +43,8 @@ class Circle(NamedTuple):
     def understeer_gradient(self) -> float:
         """Rise of steering angle beyond Ackermann's with lateral acceleration, tyres linear [rad/(m/s2)]."""
         recording = self.recording
-        ackermann = self.single_track.wheelbase * recording.yaw_rate / recording.speed
+        # Of a car whose tyres do not slip; at 30 km/h its tangent matters.
+        ackermann = np.arctan(self.single_track.wheelbase * recording.yaw_rate / recording.speed)
         return self._gradient(recording.steering_angle - ackermann)
 
     @property
@@ -70,17 +72,19 @@ class Circle(NamedTuple):
 
     def _gradient(self, quantity: Float[np.ndarray, " T"]) -> float:
         acceleration = self.recording.centripetal_acceleration
-        fitted = (acceleration > LINEAR_RANGE[0]) & (acceleration < LINEAR_RANGE[1])
+        # Only on the way up: a car that spins in the end passes the range once more.
+        is_before = np.logical_and.accumulate(acceleration < LINEAR_RANGE[1])
+        fitted = is_before & (acceleration > LINEAR_RANGE[0])
         if fitted.sum() < 10:
             return math.nan
         return float(np.polyfit(acceleration[fitted], quantity[fitted], 1)[0])
 
 
-def circle(rig: Rig, speed_kmh: int) -> Circle:
+def circle(plant: Plant, speed_kmh: int) -> Circle:
     """Hold a speed and turn the wheel slowly until the car takes no more.
 
     Args:
-        rig: On a flat road.
+        plant: On a flat road.
         speed_kmh: Speed to hold [km/h].
 
     Returns:
@@ -88,16 +92,16 @@ def circle(rig: Rig, speed_kmh: int) -> Circle:
     """
     speed = speed_kmh / 3.6
     hold = SpeedHold(speed)
-    lock = rig.car.parameters.max_steering_angle
-    rate = RAMP / (speed * rig.single_track.yaw_rate_gain(speed))
-    rig.place(speed=speed)
-    rig.drive(lambda moment: Action(hold(moment), 0.0), duration=SETTLING)
-    recording = rig.drive(
+    lock = plant.max_steering_angle
+    rate = RAMP / (speed * plant.single_track.yaw_rate_gain(speed))
+    plant.place(speed=speed)
+    plant.drive(lambda moment: Action(hold(moment), 0.0), duration=SETTLING)
+    recording = plant.drive(
         lambda moment: Action(hold(moment), rate * moment.time / lock),
         duration=min(PATIENCE, lock / rate),
-        until=lambda moment: _is_over(moment, speed),
+        until=lambda moment: _is_over(moment, plant.single_track.rear, speed),
     )
-    return Circle(speed_kmh, recording, rig.single_track)
+    return Circle(speed_kmh, recording, plant.single_track)
 
 
 def _averaged(quantity: Float[np.ndarray, " T"], duration: float) -> Float[np.ndarray, " S"]:
@@ -106,9 +110,9 @@ def _averaged(quantity: Float[np.ndarray, " T"], duration: float) -> Float[np.nd
     return np.convolve(quantity, np.full(window, 1 / window), "valid")
 
 
-def _is_over(moment: Moment, speed: float) -> bool:
-    slips = abs(math.atan2(moment.lateral_speed, moment.speed)) > LARGEST_SLIP
-    return slips or moment.speed < 0.5 * speed
+def _is_over(moment: Moment, rear: float, speed: float) -> bool:
+    sideways = moment.lateral_speed - rear * moment.yaw_rate
+    return abs(math.atan2(sideways, moment.speed)) > LARGEST_SLIP or moment.speed < 0.5 * speed
 
 
 def bars(circle: Circle) -> tuple[Bar, ...]:

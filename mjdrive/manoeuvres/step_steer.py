@@ -7,8 +7,8 @@ import numpy as np
 
 from mjdrive.datatypes import Action
 from mjdrive.manoeuvres.bars import Bar, around
+from mjdrive.manoeuvres.plant import Plant, SpeedHold
 from mjdrive.manoeuvres.recording import Recording
-from mjdrive.manoeuvres.rig import Rig, SpeedHold
 from mjdrive.manoeuvres.single_track import SingleTrack
 
 SPEED_KMH = 80
@@ -96,11 +96,11 @@ def step_angle(
     return acceleration / (speed * single_track.yaw_rate_gain(speed))
 
 
-def step(rig: Rig, speed_kmh: float = SPEED_KMH) -> Step:
+def step(plant: Plant, speed_kmh: float = SPEED_KMH) -> Step:
     """Turn the wheel as fast as the steering allows, to where the linear model gives 4 m/s2, and hold it.
 
     Args:
-        rig: On a flat road.
+        plant: On a flat road.
         speed_kmh: Speed to hold [km/h].
 
     Returns:
@@ -108,11 +108,11 @@ def step(rig: Rig, speed_kmh: float = SPEED_KMH) -> Step:
     """
     speed = speed_kmh / 3.6
     hold = SpeedHold(speed)
-    command = step_angle(rig.single_track, speed) / rig.car.parameters.max_steering_angle
-    rig.place(speed=speed)
-    rig.drive(lambda moment: Action(hold(moment), 0.0), duration=SETTLING)
-    recording = rig.drive(lambda moment: Action(hold(moment), command), duration=DURATION)
-    return Step(speed_kmh, recording, rig.single_track)
+    command = step_angle(plant.single_track, speed) / plant.max_steering_angle
+    plant.place(speed=speed)
+    plant.drive(lambda moment: Action(hold(moment), 0.0), duration=SETTLING)
+    recording = plant.drive(lambda moment: Action(hold(moment), command), duration=DURATION)
+    return Step(speed_kmh, recording, plant.single_track)
 
 
 def bars(step: Step) -> tuple[Bar, ...]:

@@ -7,8 +7,9 @@ import numpy as np
 
 from mjdrive.datatypes import Action
 from mjdrive.manoeuvres.bars import Bar
+from mjdrive.manoeuvres.plant import SpeedHold
 from mjdrive.manoeuvres.recording import Recording
-from mjdrive.manoeuvres.rig import Rig, SpeedHold
+from mjdrive.manoeuvres.rig import Rig
 from mjdrive.vehicle.parameters import VehicleParameters
 
 SPEED = 2.0  # [m/s]
