@@ -30,7 +30,7 @@ TUNINGS = Path("tunings")
 )
 @click.option(
     "--trials",
-    default=120,
+    default=80,
     show_default=True,
     type=click.IntRange(min=2),
     help="Settings to try.",

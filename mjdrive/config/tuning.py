@@ -22,9 +22,9 @@ class TuneConfig:
         mishap_cost: Cost of each infraction and of each exercise that is not finished [-].
     """
 
-    trials: int = 120
+    trials: int = 80
     spread: float = 0.2
-    bends: int = 12
+    bends: int = 8
     offset_scale: float = 0.10
     whiteness_scale: float = 0.30
     jerk_scale: float = 1.5

@@ -15,8 +15,8 @@ from mjdrive.simulation.simulation import Simulation
 from mjdrive.town.lane_graph import lane_length
 from mjdrive.town.route_line import lay
 
-APPROACH = 30.0
-"""Way before and after each bend [m]: 10 m to reach 5 m/s, the rest to settle."""
+APPROACH = 25.0
+"""Way before and after each bend [m]: 10 m to reach 5 m/s, 15 m to settle."""
 
 BESIDE = 0.7
 """How far beside its lane the car starts in the exercise of coming back [m]."""

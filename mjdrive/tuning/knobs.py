@@ -18,14 +18,14 @@ class Knob(NamedTuple):
 
     Attributes:
         field: Name of the setting.
-        index: Which of its numbers, or None if it is one.
+        component: Which of its numbers, or None if it is one.
         low: Least value.
         high: Largest value.
         is_log: Whether its size counts by factors.
     """
 
     field: str
-    index: int | None
+    component: int | None
     low: float
     high: float
     is_log: bool = True
@@ -88,11 +88,11 @@ def turned(
     changes: dict[str, object] = {}
     for knob, place in zip(chosen, places, strict=True):
         value = _value(knob, float(np.clip(place, 0.0, 1.0)))
-        if knob.index is None:
+        if knob.component is None:
             changes[knob.field] = value
         else:
             numbers = list(changes.get(knob.field, getattr(config, knob.field)))  # type: ignore[call-overload]
-            numbers[knob.index] = value
+            numbers[knob.component] = value
             changes[knob.field] = tuple(numbers)
     return dataclasses.replace(config, **changes)  # type: ignore[arg-type]
 
@@ -104,7 +104,7 @@ def places_of(config: ExpertConfig, chosen: Sequence[Knob]) -> Float[np.ndarray,
 
 def _read(config: ExpertConfig, knob: Knob) -> float:
     value = getattr(config, knob.field)
-    return float(value if knob.index is None else value[knob.index])
+    return float(value if knob.component is None else value[knob.component])
 
 
 def _value(knob: Knob, place: float) -> float:

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mjdrive import config
-from mjdrive.evaluation.figure_style import STYLE, save
+from mjdrive.picture_style import STYLE, save
 from mjdrive.tuning.course import Trace
 from mjdrive.tuning.gains import plain
 from mjdrive.tuning.search import Tried, best
@@ -92,15 +92,17 @@ def _draw_costs(axes: Axes, tried: Sequence[Tried]) -> None:
 
 def _metres(traces: Sequence[Trace]) -> np.ndarray:
     """Way driven through all exercises, a gap between two [m]."""
-    parts, start = [], 0.0
+    parts: list[np.ndarray] = []
+    start = 0.0
     for trace in traces:
         steps = np.hypot(*np.diff(trace.episode.vehicle[:, :2], axis=0).T)
         way = start + np.concatenate([[0.0], np.cumsum(steps)])
-        parts += [way, [np.nan]]
+        parts += [way, np.array([np.nan])]
         start = way[-1]
     return np.concatenate(parts)
 
 
 def _offsets(traces: Sequence[Trace]) -> np.ndarray:
     """Distance from the route, NaN between two exercises [m]."""
-    return np.concatenate([part for trace in traces for part in (trace.offsets, [np.nan])])
+    gap = np.array([np.nan])
+    return np.concatenate([part for trace in traces for part in (trace.offsets, gap)])
