@@ -34,7 +34,9 @@ class Car:
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         self.parameters = parameters = VehicleParameters.of(model)
-        self.hull_geoms = frozenset(model.geom(name).id for name in ("hull_low", "hull_top"))
+        self.hull_geoms = frozenset(
+            number for number in range(model.ngeom) if model.geom(number).name.startswith("hull_")
+        )
         self.tyre_geoms = frozenset(model.geom(f"tyre_{wheel}").id for wheel in WHEELS)
         self._model = model
         self._data = data

@@ -11,14 +11,15 @@ from mjdrive.vehicle.car_shape_checks import numbers
 
 TOLERANCE = 1e-3  # of ratios and angles [-, rad]
 MAX_STEERING_ANGLE = 1.4  # [rad]; beyond it the single-track models end
-POSITIVE = {
-    "cornering_stiffness": 2,
-    "tyre_vertical_stiffness": 1,
-    "tyre_vertical_damping": 1,
-    "brake_torque": 1,
-    "drag_area": 1,
+RANGES = {
+    "cornering_stiffness": (2, 1e3, 1e6),
+    "tyre_vertical_stiffness": (1, 1e4, 1e7),
+    "tyre_vertical_damping": (1, 1.0, 1e5),
+    "brake_torque": (1, 100.0, 1e5),
+    "brake_front_share": (1, 0.0, 1.0),
+    "drag_area": (1, 0.0, 10.0),
 }
-"""How many positive numbers each numeric holds."""
+"""How many numbers each numeric holds and their range, which tells kilonewtons and square feet from SI units."""
 
 
 def control_faults(model: mujoco.MjModel) -> Iterator[str]:
@@ -152,13 +153,16 @@ def _lock_faults(model: mujoco.MjModel, wheel: str) -> Iterator[str]:
 
 
 def _number_faults(model: mujoco.MjModel) -> Iterator[str]:
-    for name, count in POSITIVE.items():
+    for name, (count, low, high) in RANGES.items():
         values = model.numeric(name).data
-        if len(values) != count or not (values > 0).all():
-            yield f"numeric '{name}' is {numbers(values)}; expected {count} positive"
-    share = model.numeric("brake_front_share").data
-    if len(share) != 1 or not 0 <= share[0] <= 1:
-        yield f"numeric 'brake_front_share' is {numbers(share)}; expected one from 0 to 1"
+        if len(values) != count or not ((low <= values) & (values <= high)).all():
+            yield f"numeric '{name}' is {numbers(values)}; expected {count} from {low:g} to {high:g}"
     friction = [model.dof_frictionloss[model.joint(f"spin_{wheel}").dofadr[0]] for wheel in WHEELS]
     if len(set(friction)) != 1:
         yield f"the joints spin_* have the frictionloss {numbers(np.array(friction))}; expected one for all"
+    negative = (model.dof_frictionloss < 0) | (model.dof_damping < 0) | (model.dof_armature < 0)
+    for joint in sorted(set(model.dof_jntid[negative].tolist())):
+        yield (
+            f"joint '{model.joint(joint).name}' has a negative frictionloss, damping or armature; expected 0 or more: it "
+            "would drive itself"
+        )

@@ -11,6 +11,7 @@ from mjdrive.vehicle.assembly import WHEELS
 TOLERANCE = 0.01  # of places [m]
 RADIUS_TOLERANCE = 1e-4  # [m]
 MASSES = (200.0, 5000.0)  # what one car may weigh [kg]
+LARGEST = (20.0, 4.0)  # length and width of a footprint [m]
 TYRE_BITS = (4, 2)  # contype, conaffinity
 HULL_BITS = ((0, 8), (0, 10))
 LEFT = np.array([0.0, 1.0, 0.0])
@@ -83,10 +84,11 @@ def _footprint_faults(model: mujoco.MjModel, hubs: Float[np.ndarray, "4 3"]) -> 
         yield "geom 'hull_low' is not an unturned box in the body 'car'"
         return
     low, high = (hull.pos - hull.size)[:2], (hull.pos + hull.size)[:2]
-    if (hubs[:, :2] < low).any() or (hubs[:, :2] > high).any():
+    covers_hubs = (low <= hubs[:, :2]).all() and (hubs[:, :2] <= high).all()
+    if not covers_hubs or not (high - low <= LARGEST).all():
         yield (
-            f"geom 'hull_low' reaches from {numbers(low)} to {numbers(high)} m; expected it over all four hubs: it is the "
-            "footprint"
+            f"geom 'hull_low' reaches from {numbers(low)} to {numbers(high)} m; expected it over all four hubs and at most "
+            f"{LARGEST[0]:g} m by {LARGEST[1]:g} m: it is the footprint"
         )
 
 

@@ -1,6 +1,7 @@
 """Which car: one that ships with mjdrive, or an MJCF file of your own."""
 
 import hashlib
+import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
@@ -78,8 +79,10 @@ def _load_file(name: str, path: Path) -> CarModel:
         spec = mujoco.MjSpec.from_file(str(path))
         _refuse(path, "lacks", (str(part) for part in missing_parts(spec)))
         _refuse(path, "cannot be put into a town", file_faults(spec))
-        model = car_on_road(timestep=TIMESTEP, car=path).compile()
-    except ValueError as error:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # MuJoCo warns of a car that it can hardly simulate
+            model = car_on_road(timestep=TIMESTEP, car=path).compile()
+    except (ValueError, UserWarning) as error:
         raise CarError(
             f"MuJoCo cannot read the car file '{path}': {' '.join(str(error).split())} Expected MJCF, as in docs/cars.md."
         ) from error

@@ -1,8 +1,10 @@
+import mujoco
 import pytest
 
 from mjdrive.errors import CarError
 from mjdrive.vehicle import cars
 from mjdrive.vehicle.assembly import car_on_road, car_path
+from mjdrive.vehicle.car import Car
 from mjdrive.vehicle.car_shape_checks import shape_faults
 
 
@@ -42,6 +44,8 @@ def test_shipped_cars_have_no_fault(file):
         ([('name="hull_top"', 'name="bumper"')], "'bumper' has contype/conaffinity 0/10; expected 0/0"),
         ([('name="hull_low" class="hull"', 'name="hull_low" class="hull" euler="0 0 .1"')], "'hull_low' is not an unturned box"),
         ([('pos="1.35 0 .48"', 'pos="3.55 0 .48"')], "'hull_low' reaches from (1.35, -0.88) to (5.75, 0.88) m; expected it over all four hubs"),
+        ([('size="2.20 .88 .28"', 'size="22 .88 .28"')], "expected it over all four hubs and at most 20 m by 4 m"),
+        ([('pos="1.35 0 .48"', 'pos="nan 0 .48"')], "'hull_low' reaches from (nan, -0.88)"),
     ],
 )  # fmt: skip
 def test_what_would_break_the_physics_without_a_word_is_refused(my_car, changes, found):
@@ -57,6 +61,15 @@ def test_all_faults_are_named_at_once(my_car):
     ]
     with pytest.raises(CarError, match=r"spin_fl.*; .*tyre_rl"):
         cars.load(my_car(*changes))
+
+
+def test_every_hull_counts_as_hull(my_car):
+    boot = (
+        '<geom name="hull_boot" class="hull" pos="-.5 0 .9" size=".3 .6 .1"/><geom name="hull_low"'
+    )
+    model = car_on_road(timestep=0.005, car=my_car(('<geom name="hull_low"', boot))).compile()
+    hull = {model.geom(number).name for number in Car(model, mujoco.MjData(model)).hull_geoms}
+    assert hull == {"hull_boot", "hull_low", "hull_top"}
 
 
 def test_parts_of_ones_own_are_welcome(my_car):

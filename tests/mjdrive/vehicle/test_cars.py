@@ -2,6 +2,7 @@ import hashlib
 
 import numpy as np
 import pytest
+from lxml import etree
 
 from mjdrive.errors import CarError, UnknownNameError
 from mjdrive.vehicle import cars
@@ -127,3 +128,26 @@ def test_mesh_that_is_missing_is_refused(my_car):
     path = my_car(("</asset>", '<mesh name="box" file="box.obj"/></asset>'))
     with pytest.raises(CarError, match=r"box\.obj"):
         cars.load(path)
+
+
+def test_car_that_mujoco_warns_of_is_refused(my_car):
+    with pytest.raises(CarError, match="Inertia matrix is too close to singular"):
+        cars.load(my_car(('armature="4"', 'armature="-4.05"')))
+
+
+def test_file_without_any_one_element_is_refused_or_drives_but_never_crashes(tmp_path):
+    path = tmp_path / "my_car.xml"
+    outcomes = set()
+    rng = np.random.default_rng(0)
+    num_elements = sum(isinstance(e.tag, str) for e in etree.parse(car_path()).iter())
+    for number in rng.choice(np.arange(1, num_elements), size=25, replace=False):
+        document = etree.parse(car_path())
+        element = [e for e in document.iter() if isinstance(e.tag, str)][number]
+        element.getparent().remove(element)
+        document.write(path)
+        try:
+            outcomes.add(type(cars.load(path)))
+        except CarError as error:
+            outcomes.add(CarError)
+            assert "docs/cars.md" in str(error)
+    assert outcomes == {cars.CarModel, CarError}
