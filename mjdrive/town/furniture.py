@@ -10,8 +10,8 @@ from jaxtyping import Float
 from mjdrive.datatypes import Marking, Sign, StaticObject
 from mjdrive.geometry import offset_polyline, project, stations, wrap_angle
 from mjdrive.town.links import SHORTEST_SECTION
-from mjdrive.town.opendrive.cross_section import lane_edges, section_bounds
-from mjdrive.town.opendrive.lane_geometry import lane_edge
+from mjdrive.town.opendrive.cross_section import CrossSections, LaneOfRoad, section_bounds
+from mjdrive.town.opendrive.lane_geometry import lane_outer_edges
 from mjdrive.town.opendrive.reference_line import reference_line
 from mjdrive.town.opendrive.road_map import LaneRecord, Road, RoadMap
 from mjdrive.town.opendrive.road_shapes import RoadMark
@@ -26,11 +26,17 @@ DEFAULT_DASH = 3.0
 
 def markings(road_map: RoadMap) -> tuple[Marking, ...]:
     """Paint the road marks of a map; a double line is two markings, a width of paint apart."""
-    return tuple(
-        marking
+    painted = [
+        (LaneOfRoad(road, index, record.id), record)
         for road, index in _sections(road_map)
         for record in road.sections[index].lanes
-        for marking in _lane_markings(road, index, record)
+        if any(mark.type in PAINTED_LINES for mark in record.marks)
+    ]
+    edges = lane_outer_edges([lane for lane, _ in painted])
+    return tuple(
+        marking
+        for (lane, record), edge in zip(painted, edges, strict=True)
+        for marking in _lane_markings(lane, record, edge)
     )
 
 
@@ -63,18 +69,19 @@ def objects(road_map: RoadMap) -> tuple[StaticObject, ...]:
 
 def sidewalks(road_map: RoadMap) -> tuple[Float[np.ndarray, "_ 2"], ...]:
     """Outline the sidewalks of a map, counter-clockwise [m]."""
-    outlines = []
-    for road, index in _sections(road_map):
-        for record in road.sections[index].lanes:
-            if record.type in SIDEWALK_LANE_TYPES and record.id != 0:
-                towards_middle = record.id - (1 if record.id > 0 else -1)
-                right, left = (
-                    lane_edge(road, index, number) for number in sorted((record.id, towards_middle))
-                )
-                outline = np.concatenate([right, left[::-1]])
-                if shapely.Polygon(outline).area > 0.0:
-                    outlines.append(outline)
-    return tuple(outlines)
+    sides = [
+        LaneOfRoad(road, index, number)
+        for road, index in _sections(road_map)
+        for record in road.sections[index].lanes
+        if record.type in SIDEWALK_LANE_TYPES and record.id != 0
+        for number in sorted((record.id, record.id - (1 if record.id > 0 else -1)))
+    ]
+    edges = list(lane_outer_edges(sides))
+    outlines = [
+        np.concatenate([right, left[::-1]])
+        for right, left in zip(edges[::2], edges[1::2], strict=True)
+    ]
+    return tuple(outline for outline in outlines if shapely.Polygon(outline).area > 0.0)
 
 
 def _sections(road_map: RoadMap) -> Iterator[tuple[Road, int]]:
@@ -85,26 +92,34 @@ def _sections(road_map: RoadMap) -> Iterator[tuple[Road, int]]:
                 yield road, index
 
 
-def _lane_markings(road: Road, index: int, record: LaneRecord) -> Iterator[Marking]:
+def _lane_markings(
+    lane: LaneOfRoad, record: LaneRecord, edge: Float[np.ndarray, "_ 2"]
+) -> Iterator[Marking]:
     """Paint the outer edge of a lane, or the middle of the road for lane 0."""
-    if not any(mark.type in PAINTED_LINES for mark in record.marks):
+    # Inside out: to the right on the right side and along the middle, to the left on the left side.
+    outward = 1.0 if record.id > 0 else -1.0
+    if len(record.marks) == 1 and record.marks[0].start <= 0.0:
+        yield from _lines(edge, record.marks[0], outward=outward)
         return
-    edge = lane_edge(road, index, record.id)
-    start, end = section_bounds(road, index)
     along = stations(edge)
-    starts = np.array([*(mark.start for mark in record.marks), end - start])
-    s = start + np.clip(starts, 0.0, end - start)
-    reference, heading = reference_line(road.pieces, s)
-    offset = lane_edges(road, index, record.id, s)[1]
-    places = reference + offset[:, None] * np.stack([-np.sin(heading), np.cos(heading)], axis=1)
-    cuts = [project(edge, place).station for place in places]
+    cuts = _cuts(lane, record, edge)
     for mark, (first, last) in zip(record.marks, pairwise(cuts), strict=True):
         if mark.type in PAINTED_LINES and last - first >= SHORTEST_SECTION:
             inside = along[(along > first + 1e-6) & (along < last - 1e-6)]
             wanted = np.concatenate([[first], inside, [last]])
             line = np.stack([np.interp(wanted, along, edge[:, axis]) for axis in (0, 1)], axis=1)
-            # Inside out: to the right on the right side and along the middle, to the left on the left side.
-            yield from _lines(line, mark, outward=1.0 if record.id > 0 else -1.0)
+            yield from _lines(line, mark, outward=outward)
+
+
+def _cuts(lane: LaneOfRoad, record: LaneRecord, edge: Float[np.ndarray, "_ 2"]) -> list[float]:
+    """Where along the edge of a lane its marks begin, and where the last one ends [m]."""
+    start, end = section_bounds(lane.road, lane.section)
+    starts = np.array([*(mark.start for mark in record.marks), end - start])
+    s = start + np.clip(starts, 0.0, end - start)
+    reference, heading = reference_line(lane.road.pieces, s)
+    offset = CrossSections([lane]).edges(np.zeros(len(s), dtype=int), s)[1]
+    places = reference + offset[:, None] * np.stack([-np.sin(heading), np.cos(heading)], axis=1)
+    return [project(edge, place).station for place in places]
 
 
 def _lines(line: Float[np.ndarray, "N 2"], mark: RoadMark, *, outward: float) -> Iterator[Marking]:

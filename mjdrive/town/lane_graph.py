@@ -130,7 +130,7 @@ class LaneGraph:
     def __init__(self, town: Town) -> None:
         self._town = town
         self._lengths = {name: lane_length(lane) for name, lane in town.lanes.items()}
-        self._trees: dict[str, dict[str, tuple[float, str]]] = {}
+        self._searches: dict[str, _Search] = {}
 
     def leg(self, start: Place, end: Place) -> Leg | None:
         """Find the shortest way between two places.
@@ -144,9 +144,9 @@ class LaneGraph:
         """
         if start.lane == end.lane and end.station >= start.station:
             return Leg(end.station - start.station, ())
-        if start.lane not in self._trees:
-            self._trees[start.lane] = self._shortest_paths(start.lane)
-        tree = self._trees[start.lane]
+        if start.lane not in self._searches:
+            self._searches[start.lane] = _Search(self._town, self._lengths, start.lane)
+        tree = self._searches[start.lane].tree_with(end.lane)
         if end.lane not in tree:
             return None
         entered = [end.lane]
@@ -155,15 +155,28 @@ class LaneGraph:
         length = self._lengths[start.lane] - start.station + tree[end.lane][0] + end.station
         return Leg(length, tuple(reversed(entered)))
 
-    def _shortest_paths(self, start: str) -> dict[str, tuple[float, str]]:
-        """Dijkstra from the end of a lane: distance to the start of each lane [m], and the lane before it."""
-        tree: dict[str, tuple[float, str]] = {}
-        queue = [(0.0, name, start) for name in self._town.lanes[start].successors]
-        heapq.heapify(queue)
-        while queue:
-            distance, name, before = heapq.heappop(queue)
-            if name not in tree:
-                tree[name] = (distance, before)
+
+class _Search:
+    """Dijkstra from the end of a lane, as far as it has been asked for.
+
+    Args:
+        town: The town.
+        lengths: Of its lanes [m].
+        start: Name of the lane.
+    """
+
+    def __init__(self, town: Town, lengths: Mapping[str, float], start: str) -> None:
+        self._town, self._lengths = town, lengths
+        self._tree: dict[str, tuple[float, str]] = {}
+        self._queue = [(0.0, name, start) for name in town.lanes[start].successors]
+        heapq.heapify(self._queue)
+
+    def tree_with(self, wanted: str) -> Mapping[str, tuple[float, str]]:
+        """Distance to the start of each lane found so far [m], and the lane before it; all there are if one cannot be reached."""
+        while self._queue and wanted not in self._tree:
+            distance, name, before = heapq.heappop(self._queue)
+            if name not in self._tree:
+                self._tree[name] = (distance, before)
                 for following in self._town.lanes[name].successors:
-                    heapq.heappush(queue, (distance + self._lengths[name], following, name))
-        return tree
+                    heapq.heappush(self._queue, (distance + self._lengths[name], following, name))
+        return self._tree

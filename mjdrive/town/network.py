@@ -11,7 +11,8 @@ from mjdrive.geometry import headings
 from mjdrive.town import furniture
 from mjdrive.town.lights import build_lights
 from mjdrive.town.links import LaneKey, Links
-from mjdrive.town.opendrive.lane_geometry import lane_centre
+from mjdrive.town.opendrive.cross_section import LaneOfRoad
+from mjdrive.town.opendrive.lane_geometry import lane_centres
 from mjdrive.town.opendrive.road_map import RoadMap
 from mjdrive.town.opendrive.vocabulary import DRIVEN_LANE_TYPES
 from mjdrive.town.settings import LightTiming
@@ -50,7 +51,7 @@ def build_town(road_map: RoadMap, *, name: str, timing: LightTiming, digest: str
             f"Map '{road_map.name}' has no driving lane; expected lanes of type "
             f"{', '.join(sorted(DRIVEN_LANE_TYPES))}."
         )
-    lanes = {key.name: _lane(road_map, links, key) for key in links.following}
+    lanes = _lanes(road_map, links)
     if not any(lane.width > 0.0 for lane in lanes.values()):
         raise TownFormatError(
             f"Map '{road_map.name}' has only lanes that are 0 m wide; expected lanes that a car fits into."
@@ -72,11 +73,24 @@ def build_town(road_map: RoadMap, *, name: str, timing: LightTiming, digest: str
     )
 
 
-def _lane(road_map: RoadMap, links: Links, key: LaneKey) -> Lane:
-    road = road_map.roads[key.road]
+def _lanes(road_map: RoadMap, links: Links) -> dict[str, Lane]:
+    keys = list(links.following)
+    places = [LaneOfRoad(road_map.roads[key.road], key.section, key.lane) for key in keys]
     # Numbers may be anything: what overflows is refused below.
     with np.errstate(over="ignore", invalid="ignore"):
-        points, widths = lane_centre(road, key.section, key.lane)
+        return {
+            key.name: _lane(road_map, links, key, points, widths)
+            for key, (points, widths) in zip(keys, lane_centres(places), strict=True)
+        }
+
+
+def _lane(
+    road_map: RoadMap,
+    links: Links,
+    key: LaneKey,
+    points: Float[np.ndarray, "N 2"],
+    widths: Float[np.ndarray, " N"],
+) -> Lane:
     if not np.all(np.abs(points) < _FARTHEST) or not np.all(np.abs(widths) < _FARTHEST):
         raise TownFormatError(
             f"Lane '{key.name}' runs beyond {_FARTHEST:.0e} m; expected a road network near the origin of the map."
@@ -85,14 +99,15 @@ def _lane(road_map: RoadMap, links: Links, key: LaneKey) -> Lane:
         points, widths = points[::-1], widths[::-1]
     widths = np.maximum(widths, 0.0)
     left, right = links.neighbours(key)
+    junction = road_map.roads[key.road].junction
     return Lane(
         id=key.name,
         centerline=points,
         width=float(widths.mean()),
         successors=tuple(following.name for following in links.following[key]),
-        junction=road.junction,
+        junction=junction,
         light=None,
-        move=Move.FOLLOW if road.junction is None else _move(points),
+        move=Move.FOLLOW if junction is None else _move(points),
         widths=None if np.ptp(widths) < _SAME_WIDTH else widths,
         left=None if left is None else left.name,
         right=None if right is None else right.name,

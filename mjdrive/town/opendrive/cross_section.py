@@ -1,12 +1,14 @@
-"""How the lanes of an OpenDRIVE road lie across it."""
+"""How the lanes of OpenDRIVE roads lie across them."""
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from mjdrive.errors import TownFormatError
-from mjdrive.town.opendrive.road_map import LaneRecord, Road
+from mjdrive.town.opendrive.piecewise import Piecewise
+from mjdrive.town.opendrive.road_map import Road
 from mjdrive.town.opendrive.road_shapes import Cubic
 
 WIDEST_LANE = 100.0
@@ -15,71 +17,137 @@ WIDEST_LANE = 100.0
 _NOTHING = Cubic(0.0, 0.0)
 
 
-def evaluate(cubics: Sequence[Cubic], s: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
-    """Evaluate cubics that follow each other.
+class LaneOfRoad(NamedTuple):
+    """A lane of a map.
+
+    Attributes:
+        road: Road of the lane.
+        section: Index of its lane section.
+        lane: Signed lane number; 0 is the line between the sides.
+    """
+
+    road: Road
+    section: int
+    lane: int
+
+
+class Cubics:
+    """Several functions, each made of cubics that follow each other.
 
     Args:
-        cubics: In order of their starts; 0 everywhere if there are none.
-        s: Where, in the frame of the starts [m].
-
-    Returns:
-        Their values [m].
+        functions: Cubics of each in order of their starts; it is 0 everywhere if there are none.
     """
-    if len(cubics) < 2:
-        cubic = cubics[0] if cubics else _NOTHING
-        ds, a, b, c, d = s - cubic.start, cubic.a, cubic.b, cubic.c, cubic.d
-    else:
-        table = np.array([(cubic.start, cubic.a, cubic.b, cubic.c, cubic.d) for cubic in cubics])
-        index = np.searchsorted(table[:, 0], s + 1e-9, side="right") - 1
-        starts, a, b, c, d = table[np.maximum(index, 0)].T
-        ds = s - starts
-    value: Float[np.ndarray, " N"] = a + ds * (b + ds * (c + ds * d))
-    return value
+
+    def __init__(self, functions: Sequence[Sequence[Cubic]]) -> None:
+        self._table = Piecewise(
+            [[(c.start, c.a, c.b, c.c, c.d) for c in cubics or (_NOTHING,)] for cubics in functions]
+        )
+
+    def at(
+        self, which: Int[np.ndarray, " N"], s: Float[np.ndarray, " N"]
+    ) -> Float[np.ndarray, " N"]:
+        """Evaluate them.
+
+        Args:
+            which: Number of the function of each place.
+            s: Where, in the frame of the starts [m].
+
+        Returns:
+            Their values [m].
+        """
+        start, a, b, c, d = self._table.numbers(self._table.find(which, s))
+        ds = s - start
+        value: Float[np.ndarray, " N"] = a + ds * (b + ds * (c + ds * d))
+        return value
+
+
+class CrossSections:
+    """Where several lanes lie across their roads.
+
+    Args:
+        lanes: The lanes.
+    """
+
+    def __init__(self, lanes: Sequence[LaneOfRoad]) -> None:
+        self._lanes = lanes
+        self._offsets = Cubics([lane.road.lane_offsets for lane in lanes])
+        self._starts = np.array([lane.road.sections[lane.section].s for lane in lanes])
+        self._sides = np.array([1.0 if lane.lane > 0 else -1.0 for lane in lanes])
+        self._depths = np.array([abs(lane.lane) for lane in lanes], dtype=int)
+        self._steps = [_Step(lanes, step) for step in range(1, self._depths.max(initial=0) + 1)]
+
+    def edges(
+        self, which: Int[np.ndarray, " N"], s: Float[np.ndarray, " N"]
+    ) -> tuple[Float[np.ndarray, " N"], Float[np.ndarray, " N"]]:
+        """Tell where the edges of the lanes lie; a negative width counts as 0.
+
+        Args:
+            which: Number of the lane of each place.
+            s: Where along its road, within the section of the lane [m].
+
+        Returns:
+            t of the edge towards lane 0 and t of the other edge, positive to the left; both are the same for lane 0 [m].
+
+        Raises:
+            TownFormatError: If a lane or one between it and lane 0 is wider than `WIDEST_LANE`.
+        """
+        outer = self._offsets.at(which, s)
+        inner = outer.copy()
+        for depth, step in enumerate(self._steps, start=1):
+            here = np.flatnonzero(self._depths[which] >= depth)
+            lane, before = which[here], outer[here]
+            after = step.outer_edge(
+                lane, self._sides[lane], before, (s - self._starts[which])[here]
+            )
+            self._require_width(depth, lane, np.abs(after - before))
+            inner[here], outer[here] = before, after
+        return inner, outer
+
+    def _require_width(
+        self, depth: int, lane: Int[np.ndarray, " N"], width: Float[np.ndarray, " N"]
+    ) -> None:
+        if width.max(initial=0.0) > WIDEST_LANE:
+            first = lane[np.argmax(width > WIDEST_LANE)]
+            raise TownFormatError(
+                f"Lane {self._sides[first] * depth:.0f} of road '{self._lanes[first].road.id}' is up to "
+                f"{width[lane == first].max():g} m wide; expected at most {WIDEST_LANE:g} m."
+            )
+
+
+class _Step:
+    """The lanes at one distance from lane 0, counted in lanes, that lie between it and some lanes."""
+
+    def __init__(self, lanes: Sequence[LaneOfRoad], depth: int) -> None:
+        functions: list[Sequence[Cubic]] = []
+        is_border = []
+        for road, section, number in lanes:
+            beside = depth if number > 0 else -depth
+            record = road.sections[section].lane(beside) if abs(number) >= depth else None
+            assert record or abs(number) < depth, (
+                f"road '{road.id}' has no lane {beside} in section {section}"
+            )
+            # Where a lane has both, widths count (OpenDRIVE 1.8, 11.6).
+            functions.append(record.widths or record.borders if record else ())
+            is_border.append(bool(record and record.borders and not record.widths))
+        self._cubics, self._is_border = Cubics(functions), np.array(is_border)
+
+    def outer_edge(
+        self,
+        which: Int[np.ndarray, " N"],
+        side: Float[np.ndarray, " N"],
+        inner: Float[np.ndarray, " N"],
+        ds: Float[np.ndarray, " N"],
+    ) -> Float[np.ndarray, " N"]:
+        """Tell where these lanes end, from where they begin [m]."""
+        value = self._cubics.at(which, ds)
+        by_width = inner + side * np.maximum(value, 0.0)
+        if not self._is_border.any():
+            return by_width
+        by_border = np.where(side > 0, np.maximum(value, inner), np.minimum(value, inner))
+        return np.where(self._is_border[which], by_border, by_width)
 
 
 def section_bounds(road: Road, section_index: int) -> tuple[float, float]:
     """Tell where a lane section starts and ends along its road [m]."""
     following = road.sections[section_index + 1 : section_index + 2]
     return road.sections[section_index].s, following[0].s if following else road.length
-
-
-def lane_edges(
-    road: Road, section_index: int, lane_id: int, s: Float[np.ndarray, " N"]
-) -> tuple[Float[np.ndarray, " N"], Float[np.ndarray, " N"]]:
-    """Tell where the edges of a lane lie across its road; a negative width counts as 0.
-
-    Args:
-        road: Road of the lane.
-        section_index: Index of its lane section.
-        lane_id: Signed lane number; both edges of lane 0 are the same.
-        s: Where along the road, within the section [m].
-
-    Returns:
-        t of the edge towards lane 0 and t of the other edge, positive to the left [m].
-
-    Raises:
-        TownFormatError: If the lane or one between it and lane 0 is wider than `WIDEST_LANE`.
-    """
-    section = road.sections[section_index]
-    inner = outer = evaluate(road.lane_offsets, s)
-    side = 1 if lane_id > 0 else -1
-    for number in range(side, lane_id + side, side) if lane_id else ():
-        lane = section.lane(number)
-        assert lane is not None, f"road '{road.id}' has no lane {number} in section {section_index}"
-        inner, outer = outer, _outer_edge(lane, side, outer, s - section.s)
-        widest = np.abs(outer - inner).max(initial=0.0)
-        if widest > WIDEST_LANE:
-            raise TownFormatError(
-                f"Lane {number} of road '{road.id}' is up to {widest:g} m wide; expected at most {WIDEST_LANE:g} m."
-            )
-    return inner, outer
-
-
-def _outer_edge(
-    lane: LaneRecord, side: int, inner: Float[np.ndarray, " N"], ds: Float[np.ndarray, " N"]
-) -> Float[np.ndarray, " N"]:
-    # Where a lane has both, widths count (OpenDRIVE 1.8, 11.6).
-    if lane.widths or not lane.borders:
-        return inner + side * np.maximum(evaluate(lane.widths, ds), 0.0)
-    outer = evaluate(lane.borders, ds)
-    return np.maximum(outer, inner) if side > 0 else np.minimum(outer, inner)

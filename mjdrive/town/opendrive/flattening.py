@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from mjdrive.town.opendrive.cross_section import evaluate
+from mjdrive.town.opendrive.cross_section import Cubics
 from mjdrive.town.opendrive.road_shapes import Cubic
 from mjdrive.town.opendrive.xml_fields import Element, XmlFields
 
@@ -90,10 +90,8 @@ class HeightGauge:
     def _profile(self, road: Element, length: float) -> tuple[float, float, float]:
         """Lowest and highest place of the reference line and its steepest slope."""
         cubics = self._cubics(road, "elevationProfile", "elevation")
-        s = _stations(cubics, length)
-        heights = evaluate(cubics, s)
         slopes = [max(abs(c.b), *_slopes(c, end)) for c, end in _spans(cubics, length)]
-        return float(heights.min()), float(heights.max()), max(slopes, default=0.0)
+        return *_range(cubics, length), max(slopes, default=0.0)
 
     def _across(self, road: Element, length: float) -> float:
         """Steepest slope across a road: superelevation, crossfall, shapes and strips of a cross-section."""
@@ -101,8 +99,8 @@ class HeightGauge:
         slope = 0.0
         for tag in ("superelevation", "crossfall"):
             cubics = self._cubics(road, "lateralProfile", tag)
-            angles = np.abs(evaluate(cubics, _stations(cubics, length)))
-            slope = max(slope, float(np.tan(np.minimum(angles.max(), 1.5))))
+            smallest, largest = _range(cubics, length)
+            slope = max(slope, float(np.tan(min(max(-smallest, largest), 1.5))))
         shapes = list(fields.each(road, "lateralProfile", "shape"))
         rows: dict[float, list[Cubic]] = {}
         for shape in shapes:
@@ -136,7 +134,13 @@ def _slopes(cubic: Cubic, end: float) -> list[float]:
     return [abs(cubic.b + ds * (2.0 * cubic.c + 3.0 * cubic.d * ds)) for ds in places]
 
 
-def _stations(cubics: Sequence[Cubic], length: float) -> np.ndarray:
-    """Places dense enough to find the largest value of cubics."""
+def _range(cubics: Sequence[Cubic], length: float) -> tuple[float, float]:
+    """Smallest and largest value of cubics along a road, 0 if there are none."""
+    if not any(c.b or c.c or c.d for c in cubics):
+        steps = [c.a for c in cubics if c.start < length] or [c.a for c in cubics[:1]] or [0.0]
+        return min(steps), max(steps)
     knots = sorted({0.0, length, *(c.start for c in cubics if 0.0 < c.start < length)})
-    return np.unique(np.concatenate([np.linspace(a, b, 33) for a, b in pairwise(knots)]))
+    # Dense enough to find the largest value of cubics.
+    s = np.unique(np.concatenate([np.linspace(a, b, 33) for a, b in pairwise(knots)]))
+    values = Cubics([cubics]).at(np.zeros(len(s), dtype=int), s)
+    return float(values.min()), float(values.max())

@@ -1,21 +1,60 @@
-"""Where the reference line of an OpenDRIVE road runs."""
+"""Where the reference lines of OpenDRIVE roads run."""
 
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from mjdrive.town.opendrive.curves import arc, curve
+from mjdrive.town.opendrive.piecewise import Piecewise
 from mjdrive.town.opendrive.road_shapes import Arc, Line, Piece
 
-_SAME_PLACE = 1e-9
-"""Distance below which a station counts as the start of the next piece or cubic [m]."""
+
+class ReferenceLines:
+    """The reference lines of several roads.
+
+    Args:
+        roads: Pieces of each, in order.
+    """
+
+    def __init__(self, roads: Sequence[Sequence[Piece]]) -> None:
+        self._pieces = [piece for pieces in roads for piece in pieces]
+        self._table = Piecewise(
+            [[(p.s, p.x, p.y, p.heading, curvature_of(p)) for p in pieces] for pieces in roads]
+        )
+        self._is_other = np.array([not isinstance(p.shape, Line | Arc) for p in self._pieces])
+
+    def at(
+        self, which: Int[np.ndarray, " N"], s: Float[np.ndarray, " N"]
+    ) -> tuple[Float[np.ndarray, "N 2"], Float[np.ndarray, " N"]]:
+        """Evaluate them; a place between two pieces belongs to the later one.
+
+        Args:
+            which: Number of the road of each place.
+            s: Where along it [m].
+
+        Returns:
+            Points in the world frame, shape (N, 2) [m], and headings, shape (N,) [rad].
+        """
+        number = self._table.find(which, s)
+        start, x, y, heading, curvature = self._table.numbers(number)
+        along = s - start
+        # Lines and arcs, of which most roads are made, all at once; the other pieces one by one.
+        u, v, turn = arc(curvature, along)
+        others = np.flatnonzero(self._is_other[number])
+        others = others[np.argsort(number[others], kind="stable")]
+        for here in np.split(others, np.flatnonzero(np.diff(number[others])) + 1):
+            if len(here):
+                piece = self._pieces[number[here[0]]]
+                u[here], v[here], turn[here] = curve(piece.shape, piece.length, along[here])
+        cos, sin = np.cos(heading), np.sin(heading)
+        return np.stack([x + u * cos - v * sin, y + u * sin + v * cos], axis=1), heading + turn
 
 
 def reference_line(
     pieces: Sequence[Piece], s: Float[np.ndarray, " N"]
 ) -> tuple[Float[np.ndarray, "N 2"], Float[np.ndarray, " N"]]:
-    """Evaluate the reference line of a road.
+    """Evaluate the reference line of one road.
 
     Args:
         pieces: Its pieces in order.
@@ -24,32 +63,7 @@ def reference_line(
     Returns:
         Points in the world frame, shape (N, 2) [m], and headings, shape (N,) [rad].
     """
-    index = piece_index(pieces, s)
-    table = np.array([(p.s, p.x, p.y, p.heading, curvature_of(p)) for p in pieces])
-    start, x, y, heading, curvature = table[index].T
-    # Lines and arcs, of which most roads are made, all at once; the other pieces one by one.
-    u, v, turn = arc(curvature, s - start)
-    for number, piece in enumerate(pieces):
-        if not isinstance(piece.shape, Line | Arc):
-            here = index == number
-            if here.any():
-                u[here], v[here], turn[here] = curve(piece.shape, piece.length, (s - start)[here])
-    cos, sin = np.cos(heading), np.sin(heading)
-    return np.stack([x + u * cos - v * sin, y + u * sin + v * cos], axis=1), heading + turn
-
-
-def piece_index(pieces: Sequence[Piece], s: Float[np.ndarray, " N"]) -> np.ndarray:
-    """Find the piece at each station; a place between two belongs to the later one.
-
-    Args:
-        pieces: Pieces in order.
-        s: Where along the road [m].
-
-    Returns:
-        Index into `pieces` for each station, shape (N,).
-    """
-    starts = np.array([piece.s for piece in pieces])
-    return np.clip(np.searchsorted(starts, s + _SAME_PLACE, side="right") - 1, 0, None)
+    return ReferenceLines([pieces]).at(np.zeros(len(s), dtype=int), s)
 
 
 def curvature_of(piece: Piece) -> float:

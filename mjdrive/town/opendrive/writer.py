@@ -1,8 +1,10 @@
 """Write a `RoadMap` as ASAM OpenDRIVE 1.8; `opendrive.parse` reads it back unchanged."""
 
+import numpy as np
 from lxml import etree
 
-from mjdrive.town.opendrive.lane_geometry import lane_centre
+from mjdrive.town.opendrive.cross_section import LaneOfRoad
+from mjdrive.town.opendrive.lane_geometry import lane_centres
 from mjdrive.town.opendrive.road_map import Junction, RoadMap
 from mjdrive.town.opendrive.road_writer import add, add_road
 from mjdrive.town.opendrive.xml_fields import Element
@@ -35,16 +37,15 @@ def write(road_map: RoadMap) -> bytes:
 
 
 def _add_header(root: Element, road_map: RoadMap) -> None:
-    edges = [
-        lane_centre(road, index, lane.id)[0]
+    lanes = [
+        LaneOfRoad(road, index, lane.id)
         for road in road_map.roads.values()
         for index, section in enumerate(road.sections)
         for lane in section.lanes
         if lane.id
     ]
-    x, y = (
-        sorted(float(value) for points in edges for value in points[:, axis]) for axis in (0, 1)
-    )
+    points = np.concatenate([centre for centre, _ in lane_centres(lanes)])
+    (west, south), (east, north) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
     add(
         root,
         "header",
@@ -52,10 +53,10 @@ def _add_header(root: Element, road_map: RoadMap) -> None:
         revMinor="8",
         name=road_map.name,
         version="1.00",
-        north=round(y[-1], 3),
-        south=round(y[0], 3),
-        east=round(x[-1], 3),
-        west=round(x[0], 3),
+        north=round(north, 3),
+        south=round(south, 3),
+        east=round(east, 3),
+        west=round(west, 3),
         vendor="mjdrive",
     )
 

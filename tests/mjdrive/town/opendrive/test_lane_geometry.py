@@ -8,13 +8,14 @@ from hypothesis import strategies as st
 
 from mjdrive.errors import TownFormatError
 from mjdrive.geometry import stations
+from mjdrive.town import opendrive
 from mjdrive.town.opendrive import lane_geometry
-from mjdrive.town.opendrive.cross_section import evaluate, lane_edges, section_bounds
+from mjdrive.town.opendrive.cross_section import CrossSections, Cubics, LaneOfRoad, section_bounds
 from mjdrive.town.opendrive.lane_geometry import (
     CHORD_ERROR,
     LARGEST_GAP,
-    lane_centre,
-    lane_edge,
+    lane_centres,
+    lane_outer_edges,
 )
 from mjdrive.town.opendrive.reference_line import reference_line
 from mjdrive.town.opendrive.road_map import LaneRecord, LaneSection, Road
@@ -40,10 +41,43 @@ def _road(piece: Piece) -> Road:
     return Road("1", "", piece.length, None, (piece,), (), (LaneSection(0.0, LANES),))
 
 
+def lane_centre(road: Road, section: int, lane: int) -> tuple[np.ndarray, np.ndarray]:
+    (line,) = lane_centres([LaneOfRoad(road, section, lane)])
+    return line
+
+
+def lane_edge(road: Road, section: int, lane: int) -> np.ndarray:
+    (line,) = lane_outer_edges([LaneOfRoad(road, section, lane)])
+    return line
+
+
+def lane_edges(road: Road, section: int, lane: int, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    lanes = CrossSections([LaneOfRoad(road, section, lane)])
+    return lanes.edges(np.zeros(len(s), dtype=int), s)
+
+
 def test_cubics_hold_from_their_start_to_the_next() -> None:
     cubics = [Cubic(0.0, 1.0), Cubic(2.0, 5.0, 1.0, -1.0, 0.5)]
-    values = evaluate(cubics, np.array([0.0, 1.9, 2.0, 4.0]))
-    np.testing.assert_allclose(values, [1.0, 1.0, 5.0, 5.0 + 2.0 - 4.0 + 4.0])
+    values = Cubics([(), cubics]).at(np.array([1, 1, 1, 1, 0]), np.array([0.0, 1.9, 2.0, 4.0, 4.0]))
+    np.testing.assert_allclose(values, [1.0, 1.0, 5.0, 5.0 + 2.0 - 4.0 + 4.0, 0.0])
+
+
+def test_lanes_come_out_the_same_together_and_alone(
+    rich_bytes: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lanes = [
+        LaneOfRoad(road, index, lane.id)
+        for road in opendrive.parse(rich_bytes, source="rich").roads.values()
+        for index, section in enumerate(road.sections)
+        for lane in section.lanes
+    ]
+    together = list(lane_outer_edges(lanes))
+    monkeypatch.setattr(lane_geometry, "_AT_ONCE", 300)
+    in_parts = list(lane_outer_edges(lanes))
+    assert len(together) == len(in_parts) == len(lanes) > 20
+    for line, part, lane in zip(together, in_parts, lanes, strict=True):
+        for other in (part, lane_edge(*lane)):
+            np.testing.assert_allclose(line, other, rtol=0.0, atol=1e-9)
 
 
 @given(

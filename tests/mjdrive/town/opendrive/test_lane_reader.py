@@ -5,7 +5,7 @@ import pytest
 
 from mjdrive.errors import TownFormatError
 from mjdrive.town import opendrive
-from mjdrive.town.opendrive.cross_section import lane_edges
+from mjdrive.town.opendrive.cross_section import CrossSections, LaneOfRoad
 from mjdrive.town.opendrive.road_map import Road, RoadMap
 from mjdrive.town.opendrive.road_shapes import Cubic, RoadMark
 
@@ -41,7 +41,8 @@ def test_a_lane_that_goes_on_keeps_its_shape(rich_bytes: bytes) -> None:
     road = opendrive.parse(wavy, source="wavy").roads["1"]
     for index, (start, end) in enumerate([(0.0, 20.0), (20.0, 40.0), (40.0, 60.0)]):
         s = np.linspace(start, end - 1e-6, 30)
-        inner, outer = lane_edges(road, index, 2, s)
+        lane = CrossSections([LaneOfRoad(road, index, 2)])
+        inner, outer = lane.edges(np.zeros(len(s), dtype=int), s)
         first = 2.0 + s * (0.01 + s * (0.002 - 0.0001 * s))
         expected = np.where(s < 30.0, first, 1.0 + 0.1 * (s - 30.0))
         np.testing.assert_allclose(outer - inner, np.maximum(expected, 0.0), atol=1e-9)
