@@ -2,8 +2,6 @@
 
 from typing import NamedTuple
 
-import numpy as np
-
 from mjdrive.vehicle.parameters import VehicleParameters
 
 AIR_DENSITY = 1.2  # [kg/m3], as in `car`
@@ -16,6 +14,7 @@ class Drivetrain(NamedTuple):
     Attributes:
         traction: Acceleration at full throttle from rest [m/s2].
         traction_slope: What it loses per speed [1/s].
+        dead_band: Throttle up to which there is no traction; from there it grows in proportion [-].
         braking: Deceleration at full brake [m/s2].
         rolling: Deceleration by rolling resistance [m/s2].
         drag: Deceleration by air per square of the speed [1/m].
@@ -25,6 +24,7 @@ class Drivetrain(NamedTuple):
 
     traction: float
     traction_slope: float
+    dead_band: float
     braking: float
     rolling: float
     drag: float
@@ -39,6 +39,7 @@ class Drivetrain(NamedTuple):
         return Drivetrain(
             traction=car.drive_torque * per_torque,
             traction_slope=car.drive_torque_slope * per_torque / car.wheel_radius,
+            dead_band=car.throttle_dead_band,
             braking=car.brake_torque * per_torque,
             rolling=NUM_WHEELS * car.rolling_torque * per_torque,
             drag=0.5 * AIR_DENSITY * car.drag_area / mass,
@@ -64,8 +65,10 @@ class Drivetrain(NamedTuple):
         Returns:
             Acceleration of the car once its actuators have settled [m/s2].
         """
-        full = self.full_throttle(speed) if pedal > 0 else self.braking
-        return pedal * full - self.resistance(speed)
+        if pedal <= 0:
+            return pedal * self.braking - self.resistance(speed)
+        share = max(pedal - self.dead_band, 0.0) / (1.0 - self.dead_band)
+        return share * self.full_throttle(speed) - self.resistance(speed)
 
     def pedal(self, acceleration: float, speed: float) -> float:
         """Pedal that gives an acceleration; undoes `acceleration` within the limits of the car.
@@ -78,8 +81,11 @@ class Drivetrain(NamedTuple):
             Throttle if positive, brake if negative, in [-1, 1] [-].
         """
         wanted = acceleration + self.resistance(speed)
-        full = self.full_throttle(speed) if wanted > 0 else self.braking
-        return float(np.clip(wanted / full, -1.0, 1.0)) if full > 0 else 1.0
+        if wanted <= 0:
+            return float(max(wanted / self.braking, -1.0))
+        full = self.full_throttle(speed)
+        share = min(wanted / full, 1.0) if full > 0 else 1.0
+        return float(self.dead_band + (1.0 - self.dead_band) * share)
 
     def lag(self, acceleration: float, speed: float) -> float:
         """Time constant of the pedal that an acceleration [m/s2] at a speed [m/s] asks for [s]."""

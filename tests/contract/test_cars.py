@@ -11,6 +11,7 @@ from mjdrive.vehicle import cars, engine
 from mjdrive.vehicle.assembly import WHEELS, car_on_road
 from mjdrive.vehicle.car import Car
 from mjdrive.vehicle.car_parts import PARTS
+from mjdrive.vehicle.drivetrain import Drivetrain
 
 MASSES = {"default": 1600.0, "mkz": 1696.0}  # as docs/cars.md has them [kg]
 UPDATE_INTERVAL, TIMESTEP = 0.02, 0.005
@@ -100,6 +101,18 @@ def test_slow_circles_have_the_radius_of_ackermann(track, steering):
     assert state.steering_angle == pytest.approx(steering * parameters.max_steering_angle, rel=0.01)
     radius = parameters.wheelbase / np.tan(state.steering_angle)
     assert state.speed / state.yaw_rate == pytest.approx(radius, rel=0.03)
+
+
+@pytest.mark.parametrize("wanted", [1.5, 0.6, -2.0])
+def test_pedal_of_the_drivetrain_gives_the_acceleration_that_is_wanted(track, wanted):
+    drivetrain = Drivetrain.of(track.car.parameters)
+    track.car.place(0.0, 0.0, 0.0, speed=8.0)
+    track.drive(drivetrain.pedal(wanted, 8.0), 0.0, 1.0)
+    before = track.car.state().speed
+    pedal = drivetrain.pedal(wanted, before)
+    track.drive(pedal, 0.0, 0.5)
+    assert drivetrain.acceleration(pedal, before) == pytest.approx(wanted)
+    assert (track.car.state().speed - before) / 0.5 == pytest.approx(wanted, abs=0.25)
 
 
 def test_steering_follows_at_its_stated_rate(track):
