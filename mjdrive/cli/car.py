@@ -27,7 +27,9 @@ def car() -> None:
 @car.command("test")
 @_car
 @click.option("--plot", is_flag=True, help="Draw the curves, too.")
-@click.option("--quick", is_flag=True, help="Fewer seeds and obstacles: a minute, not ten.")
+@click.option(
+    "--quick", is_flag=True, help="Fewer seeds and obstacles: minutes, not a quarter of an hour."
+)
 @click.option(
     "--out",
     type=click.Path(path_type=Path),
@@ -68,7 +70,7 @@ def run_tests(
     if plot:
         from mjdrive.manoeuvres import figures
 
-        pictures = figures.draw_all(report.handling, folder)
+        pictures = figures.draw(report.handling, folder)
     bars_table(report, [folder / "report.json", *pictures])
     if failed(report.bars):
         context.exit(EXIT_BELOW_BAR)

@@ -46,7 +46,7 @@ def comparison_table(comparison: Comparison) -> None:
     """Print the figures of a car and its models, a column each."""
     columns = {name: it.figures() for name, it in comparison.behaviours.items()}
     table = Table(title=Text(comparison.title), title_justify="left", header_style="bold")
-    table.add_column("figure")
+    table.add_column("figure", no_wrap=True)
     for name in columns:
         table.add_column(Text(name), justify="right")
     first = next(iter(columns.values()))
@@ -86,5 +86,5 @@ def number(value: float, unit: str) -> str:
         text = f"{value:,.0f}"
     else:
         decimals = max(2 - math.floor(math.log10(abs(value))), 0)
-        text = f"{value:,.{decimals}f}" if decimals <= 4 else f"{value:.1e}"
+        text = f"{value:,.{min(decimals, 4)}f}"
     return f"{text} {unit}".rstrip()

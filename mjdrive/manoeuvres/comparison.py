@@ -44,18 +44,18 @@ class Behaviour:
         to_deg_per_g = math.degrees(1.0) * GRAVITY
         for speed_kmh, circle in self.circles.items():
             for acceleration in ACCELERATIONS:
-                name = f"steering angle at {acceleration:.0f} m/s2, {speed_kmh} km/h"
+                name = f"{speed_kmh} km/h, steer at {acceleration:.0f} m/s2"
                 found[name] = ("deg", math.degrees(steering_angle_at(circle, acceleration)))
             limit = circle.limit / GRAVITY if self.slides else math.nan
-            found[f"limit, {speed_kmh} km/h"] = ("g", limit)
-        fast = self.circles[max(self.circles)]
-        found["understeer gradient, 80 km/h"] = ("deg/g", to_deg_per_g * fast.understeer_gradient)
-        found["body-slip gradient, 80 km/h"] = ("deg/g", to_deg_per_g * fast.body_slip_gradient)
+            found[f"{speed_kmh} km/h, limit"] = ("g", limit)
+        fast = self.circles[80]
+        found["80 km/h, understeer gradient"] = ("deg/g", to_deg_per_g * fast.understeer_gradient)
+        found["80 km/h, body-slip gradient"] = ("deg/g", to_deg_per_g * fast.body_slip_gradient)
         roll = to_deg_per_g * fast.roll_gradient if self.slides else math.nan
-        found["roll gradient, 80 km/h"] = ("deg/g", roll)
-        found["yaw-rate gain, 80 km/h"] = ("1/s", self.step.gain)
-        found["time to 90 %, 80 km/h"] = ("s", self.step.rise_time)
-        found["overshoot, 80 km/h"] = ("%", self.step.overshoot)
+        found["80 km/h, roll gradient"] = ("deg/g", roll)
+        found["80 km/h, yaw-rate gain"] = ("1/s", self.step.gain)
+        found["80 km/h, time to 90 %"] = ("s", self.step.rise_time)
+        found["80 km/h, overshoot"] = ("%", self.step.overshoot)
         return found
 
 

@@ -10,14 +10,13 @@ class EnergyMeter:
     """Adds up kinetic energy, height, springs and tyres; what hulls and kerbs store is left out.
 
     Args:
-        model: Scene with a car; MuJoCo is told to compute energies in it, which changes no motion.
+        model: Scene with a car; MuJoCo is told to compute energies from the next step on, which changes no motion.
         data: Its state.
         car: The car.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, car: Car) -> None:
         model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
-        mujoco.mj_forward(model, data)
         self._data = data
         self._tyres = list(car.tyre_geoms)
         self._stiffness = car.parameters.tyre_vertical_stiffness

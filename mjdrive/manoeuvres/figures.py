@@ -1,7 +1,7 @@
 """Curves of the manoeuvres: PNG, the same bytes for the same car, drawn without a display."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import matplotlib.style
@@ -22,21 +22,23 @@ REFERENCE_COLOR = "0.45"
 """Of models and closed forms, which are dashed."""
 
 
-def draw_all(handling: Handling, folder: Path) -> tuple[Path, ...]:
-    """Draw every diagram.
+def draw(handling: Handling, folder: Path, names: Sequence[str] | None = None) -> tuple[Path, ...]:
+    """Draw diagrams.
 
     Args:
         handling: The manoeuvres.
         folder: Where the PNG files go.
+        names: Which of `DIAGRAMS`; all if None.
 
     Returns:
         The files.
     """
     paths = []
-    for name, (draw, size) in DIAGRAMS.items():
+    for name in DIAGRAMS if names is None else names:
+        fill, size = DIAGRAMS[name]
         with matplotlib.style.context(["default", STYLE]):
             figure = Figure(figsize=size, layout="constrained")
-            draw(handling, figure)
+            fill(handling, figure)
             paths.append(folder / f"{name}.png")
             save(figure, paths[-1])
     return tuple(paths)

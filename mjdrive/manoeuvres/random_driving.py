@@ -81,6 +81,7 @@ def drive_randomly(
     """
     rig = Rig.of_car(car)
     meter = EnergyMeter(rig.model, rig.data, rig.car)
+    rig.place()
     warnings_before = sum(engine.warning_counts().values())
     largest_gain, most_upright, energy = 0.0, 1.0, meter.read()
     stop = [Action(-1.0, 0.0)] * round(STOPPING_TIME / _CONTROL)

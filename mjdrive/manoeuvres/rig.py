@@ -39,6 +39,7 @@ class Rig(Plant):
         parameters = self.car.parameters
         super().__init__(single_track, max_steering_angle=parameters.max_steering_angle)
         self._steps_per_update = max(round(UPDATE_INTERVAL / model.opt.timestep), 1)
+        self._rack = int(model.joint("steer").qposadr[0])
         self._centre_of_gravity = np.array(
             [parameters.centre_of_gravity_ahead, 0.0, parameters.centre_of_gravity_height]
         )
@@ -98,17 +99,20 @@ class Rig(Plant):
         rotation = np.empty(9)
         mujoco.mju_quat2Mat(rotation, self.data.qpos[3:7])
         world_from_car = rotation.reshape(3, 3)
-        spin = world_from_car @ qvel[3:6]
-        velocity = qvel[:3] + np.cross(spin, world_from_car @ self._centre_of_gravity)
-        yaw = math.atan2(world_from_car[1, 0], world_from_car[0, 0])
+        roll_rate, pitch_rate, yaw_rate = (world_from_car @ qvel[3:6]).tolist()
+        ahead, left, up = (world_from_car @ self._centre_of_gravity).tolist()
+        # Of the centre of gravity: that of the rear axle and spin x arm.
+        x_speed = float(qvel[0]) + pitch_rate * up - yaw_rate * left
+        y_speed = float(qvel[1]) + yaw_rate * ahead - roll_rate * up
+        yaw = math.atan2(rotation[3], rotation[0])
         return Moment(
             time=self.data.time,
             x=float(self.data.qpos[0]),
             y=float(self.data.qpos[1]),
             yaw=yaw,
-            speed=math.cos(yaw) * velocity[0] + math.sin(yaw) * velocity[1],
-            lateral_speed=math.cos(yaw) * velocity[1] - math.sin(yaw) * velocity[0],
-            yaw_rate=float(spin[2]),
-            steering_angle=self.car.state().steering_angle,
-            roll=math.atan2(world_from_car[2, 1], world_from_car[2, 2]),
+            speed=math.cos(yaw) * x_speed + math.sin(yaw) * y_speed,
+            lateral_speed=math.cos(yaw) * y_speed - math.sin(yaw) * x_speed,
+            yaw_rate=yaw_rate,
+            steering_angle=float(self.data.qpos[self._rack]),
+            roll=math.atan2(rotation[7], rotation[8]),
         )

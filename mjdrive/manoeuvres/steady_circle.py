@@ -14,7 +14,7 @@ from mjdrive.manoeuvres.rig import GRAVITY
 from mjdrive.manoeuvres.single_track import SingleTrack
 
 SPEEDS_KMH = (30, 50, 80)
-RAMP = 0.3  # how fast the lateral acceleration rises while tyres are linear [m/s3]
+RAMP = 0.5  # how fast the lateral acceleration rises while tyres are linear [m/s3]
 SETTLING = 3.0  # straight ahead before the ramp [s]
 LINEAR_RANGE = (1.0, 4.0)  # lateral acceleration in which gradients are fitted [m/s2]
 GRADIENT_SHARE = 0.20  # that the understeer gradient may be off the linear model's [-]
