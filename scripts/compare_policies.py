@@ -17,6 +17,7 @@ import click
 from mjdrive.cli.driver import find_driver
 from mjdrive.evaluation import report
 from mjdrive.evaluation.metrics import DriveSummary
+from mjdrive.expert import experts
 from mjdrive.town import library
 
 COLUMNS = (
@@ -79,7 +80,9 @@ def main(
     os.environ["OMP_NUM_THREADS"] = "1"  # one drive a core is quicker than one drive on all
     plan = [
         (policy, acting, town_name, num_steps, seed, out / f"{Path(policy).name}-{seed}")
-        for policy, acting in ((name, None if name == "pid" else preset) for name in policies)
+        for policy, acting in (
+            (name, None if name in experts.NAMES else preset) for name in policies
+        )
         for seed in range(num_seeds)
     ]
     for job in plan:

@@ -1,4 +1,4 @@
-"""`mjdrive collect`: let the expert drive the routes of a town."""
+"""`mjdrive collect`: let an expert drive the routes of a town, or take random turns."""
 
 from pathlib import Path
 
@@ -15,10 +15,42 @@ import rich_click as click
     help="What is driven: every route disturbed (standard), undisturbed (paper), or a few routes (quick).",
 )
 @click.option(
+    "--routes",
+    "route_names",
+    metavar="NAME,NAME|0-4",
+    help="Routes to drive, by name, by number, or from one number to another. [default: as the preset says]",
+)
+@click.option(
+    "--random-walk",
+    "random_walk_km",
+    type=float,
+    metavar="KM",
+    help="Drive so far with random turns instead of along the routes, in episodes of 1 km.",
+)
+@click.option(
+    "--episodes",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Drive N episodes: the routes in turn, again and again, or the random walk in N pieces.",
+)
+@click.option(
+    "--expert",
+    default="pid",
+    show_default=True,
+    metavar="pid|mpc",
+    help="Who drives.",
+)
+@click.option(
     "--noise",
-    type=click.FloatRange(0.0, 2.0),
+    type=float,
     metavar="SCALE",
-    help="Scale of the disturbances: 0 drives cleanly, 1 is the standard. The clean action stays the label.",
+    help="Scale of the disturbances, 0 to 2: 0 drives cleanly, 1 is the standard. The clean action stays the label.",
+)
+@click.option(
+    "--throttle-noise",
+    type=float,
+    metavar="SCALE",
+    help="Scale of pulses on throttle and brake, 0 to 2, as often as the paper's code has them. [default: 0]",
 )
 @click.option(
     "--car",
@@ -36,72 +68,93 @@ import rich_click as click
     help="Same seed, same files.",
 )
 @click.option(
+    "--jobs",
+    default=1,
+    show_default=True,
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Processes that drive at once; the files are the same.",
+)
+@click.option(
     "--out",
     type=click.Path(path_type=Path),
     metavar="DIR",
     help="Data folder. [default: data/<town>]",
 )
 @click.option("--overwrite", is_flag=True, help="Replace a data set that is in the folder.")
+@click.option("--mix", is_flag=True, help="Add to a data set that was driven in another way.")
 def collect(
     *,
     town_name: str,
     preset: str,
+    route_names: str | None,
+    random_walk_km: float | None,
+    episodes: int | None,
+    expert: str,
     noise: float | None,
+    throttle_noise: float | None,
     car_name: str,
     seed: int,
+    jobs: int,
     out: Path | None,
     overwrite: bool,
+    mix: bool,
 ) -> None:
-    """Collect demonstrations: the expert drives the routes of a town.
+    """Collect demonstrations: an expert drives the routes of a town, or takes random turns.
 
     An interrupted collection can be run again and goes on.
     """
-    import numpy as np
-    from rich.progress import TaskID
-
-    from mjdrive.cli.console import closing_table, progress_bars
+    from mjdrive.cli.collected import rows
+    from mjdrive.cli.console import closing_table, episode_bars
     from mjdrive.episodes import dataset, presets
     from mjdrive.episodes.demonstrations import collect as collect_routes
+    from mjdrive.episodes.plan import lay_routes, plan
+    from mjdrive.errors import ConfigError
     from mjdrive.evaluation.figures import draw_dataset
     from mjdrive.town import library
-    from mjdrive.town.routing import route_through
     from mjdrive.vehicle import cars
 
+    if overwrite and mix:
+        raise ConfigError(
+            "--overwrite replaces a data set and --mix adds to it; expected one of them."
+        )
     car = cars.load(car_name)
-    settings = presets.collect_preset(preset)
-    if noise is not None:
-        settings = presets.with_noise(settings, noise)
     town = library.load(town_name)
     waypoints = library.load_settings(town_name).routes
-    routes = {name: route_through(town, np.array(places)) for name, places in waypoints.items()}
+    settings = presets.chosen(
+        preset,
+        routes=None if route_names is None else presets.route_names(route_names, waypoints),
+        random_walk_km=random_walk_km,
+        episodes=episodes,
+        expert=expert,
+        noise=noise,
+        throttle_noise=throttle_noise,
+    )
+    routes = lay_routes(town, waypoints, settings=settings)
+    planned = plan(town, routes, settings=settings, seed=seed)
     folder = out or Path("data") / town.name
     if overwrite:
         dataset.remove(folder)
-    with progress_bars() as bars:
-        num_planned = len(settings.routes or routes) * settings.repeats
-        whole = bars.add_task(town.name, total=num_planned, unit="episodes")
-        tasks: dict[str, TaskID] = {}
-
-        def report(name: str, done: int, expected: int) -> None:
-            if name not in tasks:
-                tasks[name] = bars.add_task(name)
-            bars.update(tasks[name], completed=done, total=expected)
-            if done == expected:
-                bars.advance(whole)
-
-        collect_routes(town, routes, folder, settings=settings, seed=seed, car=car, report=report)
-    manifest, episodes = dataset.read_dataset(folder)
-    names = [entry.name for entry in manifest.episodes]
-    draw_dataset(dict(zip(names, episodes, strict=True)), town, folder / "overview.png")
-    num_steps = sum(entry.steps for entry in manifest.episodes)
-    num_infractions = sum(sum(entry.infractions.values()) for entry in manifest.episodes)
+    with episode_bars(town.name, total=len(planned)) as report:
+        collect_routes(
+            town,
+            routes,
+            folder,
+            settings=settings,
+            seed=seed,
+            car=car,
+            jobs=jobs,
+            mix=mix,
+            report=report,
+        )
+    manifest, driven = dataset.read_dataset(folder)
+    drives = dict(zip((entry.name for entry in manifest.episodes), driven, strict=True))
+    draw_dataset(drives, town, folder / "overview.png")
     closing_table(
         f"Demonstrations in {town.name}",
         {
             "folder": folder,
-            "episodes": len(manifest.episodes),
-            "steps": f"{num_steps:,}",
-            "infractions": num_infractions,
+            **rows(manifest, driven, town),
             "picture": folder / "overview.png",
         },
         next_command="mjdrive train da-ibc" + ("" if out is None else f" --data {folder}"),

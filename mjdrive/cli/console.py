@@ -14,12 +14,16 @@ from rich.progress import (
     ProgressColumn,
     SpinnerColumn,
     Task,
+    TaskID,
     TextColumn,
     TimeElapsedColumn,
     TimeRemainingColumn,
 )
 from rich.table import Table
 from rich.text import Text
+
+_MOST_BARS = 16
+"""Bars that a terminal has room for [-]."""
 
 
 class RateColumn(ProgressColumn):
@@ -72,6 +76,33 @@ def stages(name: str, count: int) -> Iterator[Callable[[str], None]]:
 
         yield begin
         bars.update(task, description=escape(name), completed=count)
+
+
+@contextmanager
+def episode_bars(name: str, *, total: int) -> Iterator[Callable[[str, int, int], None]]:
+    """A bar for a number of episodes and one for each that is driven; finished ones go when there are many.
+
+    Args:
+        name: What is collected.
+        total: Number of episodes [-].
+
+    Yields:
+        To be called with the name of an episode, its steps so far and its steps in all.
+    """
+    with progress_bars() as bars:
+        whole = bars.add_task(escape(name), total=total, unit="episodes")
+        tasks: dict[str, TaskID] = {}
+
+        def report(episode: str, done: int, expected: int) -> None:
+            if episode not in tasks:
+                tasks[episode] = bars.add_task(escape(episode))
+            bars.update(tasks[episode], completed=done, total=expected)
+            if done == expected:
+                bars.advance(whole)
+                if total > _MOST_BARS:
+                    bars.remove_task(tasks.pop(episode))
+
+        yield report
 
 
 @contextmanager

@@ -21,8 +21,8 @@ DRIVES = Path("drives")
 @click.option(
     "--policy",
     "policy_name",
-    metavar="RUN|pid|NAME",
-    help="A run folder, the name of one in runs/, or the expert. [default: the newest run]",
+    metavar="RUN|pid|mpc|NAME",
+    help="A run folder, the name of one in runs/, or an expert. [default: the newest run]",
 )
 @click.option(
     "--preset",
@@ -105,7 +105,7 @@ def drive(
             "episode": folder / "episode.hdf5",
         },
         next_command=f"mjdrive drive --town {town.name} --policy pid --seed {seed}"
-        if driver.name != "pid"
+        if driver.pilot is not None
         else f"mjdrive drive --town {town.name} --seed {seed + 1}",
     )
 

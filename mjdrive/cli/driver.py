@@ -7,16 +7,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mjdrive import config, versions
+from mjdrive.config import CollectConfig
 from mjdrive.datatypes import Episode, Town
 from mjdrive.episodes import driving, store
 from mjdrive.errors import ConfigError
+from mjdrive.expert import experts
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.vehicle.cars import CarModel
 
 if TYPE_CHECKING:
     from mjdrive.learning.pilot import Pilot
-
-EXPERT = "pid"
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,9 +25,9 @@ class Driver:
 
     Attributes:
         name: How summaries call it.
-        digest: SHA-256 of its weights, hexadecimal; empty for the expert.
+        digest: SHA-256 of its weights, hexadecimal; empty for an expert.
         settings: Its settings as JSON text.
-        pilot: The trained policy, or None for the expert.
+        pilot: The trained policy, or None for an expert.
         learnt_car: Name of the car whose demonstrations it learnt from; empty for the expert.
         learnt_car_digest: Digest of that car; empty if it is not known.
     """
@@ -83,7 +83,12 @@ class Driver:
         }
         if self.pilot is None:
             return driving.drive_expert(
-                simulation, num_steps=num_steps, seed=seed, on_step=on_step, metadata=metadata
+                simulation,
+                num_steps=num_steps,
+                seed=seed,
+                config=CollectConfig(expert=experts.known(self.name)),
+                on_step=on_step,
+                metadata=metadata,
             )
         return driving.drive(
             simulation,
@@ -99,7 +104,7 @@ def find_driver(name: str | None, runs: Path, *, preset: str | None = None) -> D
     """Find out who shall drive.
 
     Args:
-        name: "pid", a run folder, the name of a folder in `runs`, or None for the newest of them.
+        name: "pid", "mpc", a run folder, the name of a folder in `runs`, or None for the newest of them.
         runs: Folder of run folders.
         preset: How a trained policy chooses its actions; as it was trained to if None.
 
@@ -108,12 +113,13 @@ def find_driver(name: str | None, runs: Path, *, preset: str | None = None) -> D
         UnknownNameError: If there is no such policy.
         RunError: If the folder is no run, or there is no run at all.
     """
-    if name == EXPERT:
+    if name in experts.NAMES:
         if preset is not None:
             raise ConfigError(
                 f"--preset {preset} has no effect on the expert. Leave it out, or name a trained policy."
             )
-        return Driver(EXPERT, settings=config.to_json(config.PidConfig()))
+        settings = config.PidConfig() if name == "pid" else config.MpcConfig()
+        return Driver(name, settings=config.to_json(settings))
     from mjdrive.learning import pilot  # torch takes a second
     from mjdrive.learning import runs as run_folders
     from mjdrive.learning.training import Source

@@ -35,7 +35,7 @@ class DisturbanceConfig:
     stop_duration: float = 2.5
     stop_brake: float = 0.4
     throttle_rate_per_min: float = 0.0
-    throttle_amplitude: float = 0.55
+    throttle_amplitude: float = 0.5
     throttle_duration: float = 1.0
 
     def __post_init__(self) -> None:
@@ -81,6 +81,10 @@ class CollectConfig:
     step_limit_per_metre: float = 10.0
 
     def __post_init__(self) -> None:
+        require(
+            len(set(self.routes)) == len(self.routes),
+            f"routes are {', '.join(self.routes)}; expected each at most once.",
+        )
         require(self.repeats >= 1, f"repeats is {self.repeats}; expected at least 1.")
         require(
             self.episodes is None or self.episodes >= 1,

@@ -1,70 +1,22 @@
-"""A data set: a folder of episode files and the manifest that describes and guards them."""
+"""A data set: a folder of episode files and the manifest that guards them."""
 
 from collections import Counter
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from mjdrive import config
 from mjdrive.datatypes import Episode
 from mjdrive.episodes import store
+from mjdrive.episodes.manifest import FORMAT, EpisodeEntry, Manifest
+from mjdrive.episodes.recovery import DEVIATIONS, RECOVERED
 from mjdrive.errors import ConfigError, DataError
 from mjdrive.town import library
-from mjdrive.vehicle import cars
 
-FORMAT = "mjdrive-dataset-1"
 MANIFEST = "manifest.json"
 
 
-@dataclass(frozen=True, slots=True)
-class EpisodeEntry:
-    """One episode of a data set.
-
-    Attributes:
-        name: What was driven, unique in the data set.
-        file: Name of the episode file in the folder.
-        sha256: Digest of the file, hexadecimal.
-        steps: Control steps in the episode [-].
-        infractions: How often each kind of infraction happened; kinds that did not are left out.
-    """
-
-    name: str
-    file: str
-    sha256: str
-    steps: int
-    infractions: dict[str, int]
-
-
-@dataclass(frozen=True, slots=True)
-class Manifest:
-    """What a data set is made from and consists of.
-
-    Attributes:
-        town: Name of the town.
-        town_digest: Digest of the town that was driven.
-        seed: Seed of the collection [-].
-        settings: Settings of the collection, as JSON values.
-        versions: Versions of the software that drove.
-        car: Name of the car that drove; data sets from before one could choose were driven with the default car.
-        car_digest: Digest of its MJCF.
-        num_planned: Episodes in the whole data set; more than are listed while it is being collected [-].
-        episodes: Finished episodes, in the order in which they were driven.
-        format: Version of this description.
-    """
-
-    town: str
-    town_digest: str
-    seed: int
-    settings: dict[str, Any]
-    versions: dict[str, str]
-    num_planned: int
-    episodes: tuple[EpisodeEntry, ...] = ()
-    car: str = cars.DEFAULT
-    car_digest: str = ""
-    format: str = FORMAT
-
-
-def describe(episode: Episode, *, name: str, file: str, content: bytes) -> EpisodeEntry:
+def describe(
+    episode: Episode, *, name: str, file: str, content: bytes, collection: int = 0
+) -> EpisodeEntry:
     """Make the manifest's entry for one finished episode.
 
     Args:
@@ -72,6 +24,7 @@ def describe(episode: Episode, *, name: str, file: str, content: bytes) -> Episo
         name: What was driven, unique in the data set.
         file: Name of its file in the folder.
         content: The file, byte for byte.
+        collection: The collection that it belongs to.
     """
     counts = Counter(infraction.kind.name.lower() for infraction in episode.infractions)
     return EpisodeEntry(
@@ -80,6 +33,9 @@ def describe(episode: Episode, *, name: str, file: str, content: bytes) -> Episo
         sha256=store.digest(content),
         steps=len(episode.time),
         infractions=dict(sorted(counts.items())),
+        deviations=int(episode.metadata.get(DEVIATIONS, 0)),
+        recovered=int(episode.metadata.get(RECOVERED, 0)),
+        collection=collection,
     )
 
 
@@ -148,9 +104,9 @@ def read_dataset(folder: Path) -> tuple[Manifest, list[Episode]]:
             f"{_short(installed)}, another map or town format. Collect it again: "
             f"`mjdrive collect --town {manifest.town} --overwrite`."
         )
-    if len(manifest.episodes) < manifest.num_planned:
+    if len(manifest.episodes) < manifest.all_planned:
         raise DataError(
-            f"Data set '{folder}' has {len(manifest.episodes)} of {manifest.num_planned} episodes; its collection "
+            f"Data set '{folder}' has {len(manifest.episodes)} of {manifest.all_planned} episodes; its collection "
             f"was interrupted. Run the same `mjdrive collect` again: it goes on from here."
         )
     return manifest, [read_episode(folder, entry) for entry in manifest.episodes]

@@ -1,39 +1,46 @@
-"""Fill a data folder: drive every route of a town, keep what is finished, go on where it stopped."""
+"""Fill a data folder: drive what is planned, keep what is finished, go on where it stopped."""
 
 import dataclasses
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Generator, Mapping, Sequence
+from contextlib import closing
+from functools import partial
 from pathlib import Path
-
-import numpy as np
+from typing import Any
 
 from mjdrive import config, versions
 from mjdrive.config import CollectConfig
-from mjdrive.datatypes import Episode, Route, Town
-from mjdrive.episodes import dataset, store
-from mjdrive.episodes.collection import collect_route
-from mjdrive.episodes.dataset import EpisodeEntry, Manifest
-from mjdrive.errors import DataError, RouteError, UnknownNameError
+from mjdrive.datatypes import Route, Town
+from mjdrive.episodes import dataset
+from mjdrive.episodes.collector import Collector, Driven, Job
+from mjdrive.episodes.manifest import Collection, EpisodeEntry, Manifest
+from mjdrive.episodes.mixing import find_place
+from mjdrive.episodes.plan import PlannedEpisode, plan
+from mjdrive.episodes.workers import drive_in_processes
 from mjdrive.files import write_atomically
-from mjdrive.simulation.simulation import Simulation
 from mjdrive.vehicle import cars
 from mjdrive.vehicle.cars import CarModel
 
 Report = Callable[[str, int, int], None]
 """Told the name of an episode, its steps so far, and the steps expected of it; at the end both are equal."""
 
+_INTERVAL = 0.1
+"""About the time between two control steps [s]."""
+
 
 def collect(
     town: Town,
-    routes: dict[str, Route],
+    routes: Mapping[str, Route],
     folder: Path,
     *,
     settings: CollectConfig,
     seed: int,
     car: CarModel | None = None,
+    jobs: int = 1,
+    mix: bool = False,
     report: Report = lambda name, done, expected: None,
 ) -> Manifest:
-    """Let the expert drive the routes of a town into a folder.
+    """Let an expert drive the routes of a town, or take random turns, into a folder.
 
     Each finished episode is kept at once, so an interrupted collection can be run again and goes on.
 
@@ -44,121 +51,101 @@ def collect(
         settings: Which routes, how often, and how they are driven.
         seed: The same seed gives the same files.
         car: Which car drives; the default one if None.
+        jobs: Processes that drive; the files do not depend on it.
+        mix: Whether to add to a data set of the same town that was collected in another way.
         report: Told how far the collection is.
 
     Returns:
         The description of the finished data set.
 
     Raises:
+        ConfigError: If a random walk would be cut into pieces that are too short.
         DataError: If the folder holds something else.
-        RouteError: If the town has no routes.
+        RouteError: If the town has no routes, or the expert cannot drive one.
+        SolverError: If the solver of the MPC expert is missing.
         UnknownNameError: If a route is not one of the town's.
+        WorkerError: If one of several processes ended before it was done.
     """
-    if not routes:
-        raise RouteError(
-            f"Town '{town.name}' has no routes. Expected routes in its town.json; town01 has ten."
-        )
-    names = settings.routes or tuple(routes)
-    for name in names:
-        if name not in routes:
-            raise UnknownNameError(f"route of {town.name}", name, routes)
-    plan = _plan(names, settings.repeats)
     car = car or cars.load()
-    manifest = Manifest(
-        town=town.name,
-        town_digest=town.digest,
+    planned = plan(town, routes, settings=settings, seed=seed)
+    collection = Collection(
+        seed=seed,
+        settings=described(settings),
+        versions=versions.versions(),
         car=car.name,
         car_digest=car.digest,
-        seed=seed,
-        settings=json.loads(config.to_json(settings)),
-        versions=versions.versions(),
-        num_planned=len(plan),
+        num_planned=len(planned),
     )
-    finished = _finished(folder, manifest)
-    simulation = Simulation(town, car=car)
-    for index, (name, route_name) in enumerate(plan.items()):
-        route = routes[route_name]
-        if name not in finished:
-            # On disk first, so that a folder with an episode in it always says what it is.
-            dataset.write_manifest(_with_episodes(manifest, finished, plan), folder)
-            expected = _expected_steps(route, simulation, settings)
-            episode = collect_route(
-                simulation,
-                route,
-                config=settings,
-                seed=episode_seed(seed, index),
-                on_step=_reporter(report, name, expected),
-            )
-            finished[name] = _keep(_described(episode, town, manifest), folder, name=name)
-        report(name, finished[name].steps, finished[name].steps)
-    manifest = _with_episodes(manifest, finished, plan)
-    dataset.write_manifest(manifest, folder)
+    manifest, number = find_place(folder, town, collection, mix=mix)
+    if number:
+        planned = tuple(
+            dataclasses.replace(episode, name=f"{episode.name}-mix{number}") for episode in planned
+        )
+    job = Job(town, routes, settings, car, collection, number)
+    finished = {
+        entry.name: entry
+        for entry in manifest.episodes
+        if entry.collection == number and dataset.is_intact(folder, entry)
+    }
+    for entry in finished.values():
+        report(entry.name, entry.steps, entry.steps)
+    missing = [episode for episode in planned if episode.name not in finished]
+    if not missing:
+        return manifest
+    with closing(_driven(job, missing, num_processes=jobs, report=report)) as driven:
+        # On disk first, so that a folder with an episode in it always says what it is.
+        manifest = _keep(manifest, number, planned, finished, folder)
+        for entry, content in driven:
+            write_atomically(folder / entry.file, content)
+            finished[entry.name] = entry
+            manifest = _keep(manifest, number, planned, finished, folder)
+            report(entry.name, entry.steps, entry.steps)
     return manifest
 
 
-def _plan(routes: tuple[str, ...], repeats: int) -> dict[str, str]:
-    """Name every episode of a collection, in the order of driving, and say which route it drives."""
-    return {f"{route}-{repeat}": route for repeat in range(repeats) for route in routes}
+def described(settings: CollectConfig) -> dict[str, Any]:
+    """Settings of a collection as JSON values, without those of an expert that has no part in it."""
+    values: dict[str, Any] = json.loads(config.to_json(settings))
+    if settings.expert == "pid":
+        del values["mpc"]
+    return values
 
 
-def _with_episodes(
-    manifest: Manifest, finished: Mapping[str, EpisodeEntry], plan: Mapping[str, str]
+def _driven(
+    job: Job, episodes: Sequence[PlannedEpisode], *, num_processes: int, report: Report
+) -> Generator[Driven]:
+    """Check all that can be checked at once; the episodes are driven as they are asked for."""
+    collector = Collector(job)
+    collector.require_drivable(episodes)
+
+    def on_step(episode: PlannedEpisode, done: int) -> None:
+        # About half of the time is spent at lights and in turns.
+        expected = round(1.5 * episode.length / job.settings.pid.target_speed / _INTERVAL)
+        # A drive that takes longer than expected is always one step from its end.
+        report(episode.name, done, max(expected, done + 1))
+
+    def drive_here() -> Generator[Driven]:
+        for episode in episodes:
+            yield collector.drive(episode, partial(on_step, episode))
+
+    if num_processes == 1 or len(episodes) == 1:
+        return drive_here()
+    return drive_in_processes(job, episodes, num_processes=num_processes, on_step=on_step)
+
+
+def _keep(
+    manifest: Manifest,
+    number: int,
+    planned: Sequence[PlannedEpisode],
+    finished: Mapping[str, EpisodeEntry],
+    folder: Path,
 ) -> Manifest:
-    """List what is finished, in the order of the plan."""
-    entries = tuple(finished[name] for name in plan if name in finished)
-    return dataclasses.replace(manifest, episodes=entries)
-
-
-def _reporter(report: Report, name: str, expected: int) -> Callable[[int], None]:
-    """Report the steps of one episode; a drive longer than expected is always one step from its end."""
-    return lambda done: report(name, done, max(expected, done + 1))
-
-
-def episode_seed(seed: int, index: int) -> int:
-    """Seed of one episode of a collection, unlike those of all others and of neighbouring collections."""
-    return int(np.random.SeedSequence([seed, index]).generate_state(1)[0])
-
-
-def _finished(folder: Path, wanted: Manifest) -> dict[str, EpisodeEntry]:
-    """The intact episodes of an earlier run of the same collection, by name.
-
-    Raises:
-        DataError: If the folder holds something else.
-    """
-    if not (folder / dataset.MANIFEST).exists() and not any(folder.glob("*.hdf5")):
-        return {}
-    found = dataset.read_manifest(folder)
-    names = [field.name for field in dataclasses.fields(Manifest) if field.name != "episodes"]
-    other = [name for name in names if getattr(found, name) != getattr(wanted, name)]
-    if other:
-        raise DataError(
-            f"'{folder}' holds a data set that differs in {', '.join(other)}. Expected a new folder or the same "
-            f"collection. Give another folder with --out, or replace it with --overwrite."
-        )
-    return {entry.name: entry for entry in found.episodes if dataset.is_intact(folder, entry)}
-
-
-def _described(episode: Episode, town: Town, manifest: Manifest) -> Episode:
-    """Give an episode the description of the collection that it belongs to."""
-    metadata = {
-        **episode.metadata,
-        "town_digest": town.digest,
-        "car": manifest.car,
-        "car_digest": manifest.car_digest,
-        "settings": json.dumps(manifest.settings, sort_keys=True),
-        **versions.to_metadata(manifest.versions),
-    }
-    return dataclasses.replace(episode, metadata=metadata)
-
-
-def _keep(episode: Episode, folder: Path, *, name: str) -> EpisodeEntry:
-    """Write one finished episode and describe it."""
-    content = store.to_bytes(episode)
-    write_atomically(folder / f"{name}.hdf5", content)
-    return dataset.describe(episode, name=name, file=f"{name}.hdf5", content=content)
-
-
-def _expected_steps(route: Route, simulation: Simulation, settings: CollectConfig) -> int:
-    """About how many steps a route takes, half of the time at lights and in turns [-]."""
-    duration = 1.5 * float(route.station[-1]) / settings.pid.target_speed
-    return round(duration / simulation.config.control_interval)
+    """List what is finished of a collection, in the order of its plan, between the others, and write that down."""
+    entries = (
+        *(entry for entry in manifest.episodes if entry.collection < number),
+        *(finished[episode.name] for episode in planned if episode.name in finished),
+        *(entry for entry in manifest.episodes if entry.collection > number),
+    )
+    manifest = dataclasses.replace(manifest, episodes=entries)
+    dataset.write_manifest(manifest, folder)
+    return manifest

@@ -34,7 +34,7 @@ class _Pulse:
 
 
 class Disturbance:
-    """Adds steering pulses and short stops to what an expert does.
+    """Adds pulses on steering and throttle, and short stops, to what an expert does.
 
     Args:
         config: How often and how strongly.
@@ -50,6 +50,13 @@ class Disturbance:
         self._steering = _Pulse(
             rate_per_min=config.steering_rate_per_min,
             duration=config.steering_duration,
+            interval=interval,
+        )
+        # Pulses on the throttle have numbers of their own, so that they leave the others as they are.
+        self._throttle_rng = rng.spawn(1)[0]
+        self._throttle = _Pulse(
+            rate_per_min=config.throttle_rate_per_min,
+            duration=config.throttle_duration,
             interval=interval,
         )
         self._stop_probability = config.stop_rate_per_min / 60.0 * interval
@@ -70,7 +77,9 @@ class Disturbance:
         steering = float(np.clip(action.steering + pulse, -1.0, 1.0))
         if self._rng.random() < self._stop_probability and self._stop_left == 0:
             self._stop_left = self._stop_num_steps
-        acceleration = action.acceleration
+        largest = self._config.throttle_amplitude
+        pulse = self._throttle.next(self._throttle_rng, smallest=largest / 3, largest=largest)
+        acceleration = float(np.clip(action.acceleration + pulse, -1.0, 1.0))
         if self._stop_left > 0:
             self._stop_left -= 1
             acceleration = min(acceleration, -self._config.stop_brake)

@@ -4,13 +4,15 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from mjdrive.config import PidConfig
+from mjdrive.config import CollectConfig, PidConfig
 from mjdrive.datatypes import Episode, Observation, Policy
+from mjdrive.episodes.collection import expert_of
 from mjdrive.episodes.rollout import rollout
-from mjdrive.episodes.views import FollowRoute, observe
-from mjdrive.expert.pid import PidExpert
+from mjdrive.episodes.views import FollowWalk, observe
+from mjdrive.expert.reference import require_green
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import routing
+from mjdrive.town.random_walk import RandomWalk
 
 
 def drive(
@@ -53,40 +55,47 @@ def drive_expert(
     *,
     num_steps: int,
     seed: int,
-    config: PidConfig | None = None,
+    config: CollectConfig | None = None,
     on_step: Callable[[int], None] | None = None,
     metadata: Mapping[str, str] | None = None,
 ) -> Episode:
-    """Let the PID expert take random turns, from the place where `drive` starts with the same seed and steps.
+    """Let an expert take random turns, from the place where `drive` starts with the same seed and steps.
+
+    Fewer steps give the beginning of the same drive wherever some lanes lead on for ever.
 
     Args:
         simulation: World to drive in; it is reset.
         num_steps: Control steps [-].
         seed: Decides start, lights and turns.
-        config: Settings of the expert.
+        config: Which expert drives, and its settings; the PID expert if None.
         on_step: Told the number of control steps done.
         metadata: Versions, digests and settings to keep with the episode.
 
     Returns:
         The drive.
+
+    Raises:
+        RouteError: If the lanes do not lead on for long enough, or a light that never turns green stands in the way.
+        SolverError: If the solver of the MPC expert is missing.
     """
-    config = config or PidConfig()
-    town, interval = simulation.town, simulation.config.control_interval
-    lane, station = _start(simulation, config, num_steps=num_steps, seed=seed)
-    # Turns have a stream of their own, so that they do not hang on how a start is drawn.
-    turns = np.random.default_rng([seed, 1])
-    length = _way(simulation, config, num_steps)
-    route = routing.random_route(town, lane=lane, station=station, length=length, rng=turns)
+    config = config or CollectConfig()
+    town = simulation.town
+    expert = expert_of(config, simulation)
+    require_green(town.lights.values())
+    lane, station = _start(simulation, config.pid, num_steps=num_steps, seed=seed)
+    walk = RandomWalk(
+        town,
+        lane=lane,
+        station=station,
+        # Turns have a stream of their own, so that they do not hang on how a start is drawn.
+        rng=np.random.default_rng([seed, 1]),
+        length=_way(simulation, config.pid, num_steps),
+    )
     simulation.reset(lane=lane, station=station, seed=seed)
     return rollout(
         simulation,
-        PidExpert(
-            town,
-            parameters=simulation.car.parameters,
-            config=config,
-            control_interval=interval,
-        ),
-        FollowRoute(route),
+        expert,
+        FollowWalk(walk),
         num_steps=num_steps,
         seed=seed,
         on_step=on_step,

@@ -5,6 +5,7 @@ import numpy as np
 from mjdrive import geometry
 from mjdrive.datatypes import Observation, Route, Situation
 from mjdrive.simulation.simulation import Simulation
+from mjdrive.town.random_walk import RandomWalk
 
 _SEARCH_AHEAD = 15
 """Route segments, of about 1 m each, in which the car is looked for after one control step."""
@@ -24,7 +25,7 @@ class FollowRoute:
 
     def __init__(self, route: Route) -> None:
         self.route = route
-        self.station = 0.0
+        self.station = float(route.station[0])
         self._segment = 0
 
     def __call__(self, simulation: Simulation) -> Situation:
@@ -36,17 +37,47 @@ class FollowRoute:
             first_segment=max(self._segment - 2, 0),
             last_segment=self._segment + _SEARCH_AHEAD,
         )
-        self._segment, self.station = seen.segment, seen.station
+        self._segment = seen.segment
+        self.station = float(self.route.station[0]) + seen.station
         return Situation(
             time=simulation.time,
             vehicle=vehicle,
             route=self.route,
-            station=seen.station,
+            station=self.station,
             offset=seen.offset,
             lights=simulation.lights,
         )
+
+    def go_over_to(self, route: Route) -> None:
+        """Follow another piece of the same line from now on; points that both have are at equal stations."""
+        self._segment -= int(np.searchsorted(self.route.station, route.station[0]))
+        self.route = route
 
     @property
     def is_finished(self) -> bool:
         """Whether the car is within 3 m of the end of the route."""
         return bool(self.route.station[-1] - self.station < 3.0)
+
+
+class FollowWalk:
+    """Follows the progress of a car along a random walk, which is laid on as the car drives.
+
+    Args:
+        walk: What to follow; the car starts at its beginning.
+    """
+
+    def __init__(self, walk: RandomWalk) -> None:
+        self._walk = walk
+        self._follow = FollowRoute(walk.route)
+
+    def __call__(self, simulation: Simulation) -> Situation:
+        """The truth as an expert sees it."""
+        self._walk.advance(self._follow.station)
+        if self._walk.route is not self._follow.route:
+            self._follow.go_over_to(self._walk.route)
+        return self._follow(simulation)
+
+    @property
+    def station(self) -> float:
+        """How far along the walk the car was when it was last looked at [m]."""
+        return self._follow.station

@@ -1,12 +1,14 @@
 """What an expert wants: where the route goes, how fast it may be driven, and where it must stop."""
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float
 
 from mjdrive.config import PidConfig
-from mjdrive.datatypes import Route, Signal, Situation, Town
+from mjdrive.datatypes import Route, Signal, Situation, Town, TrafficLight
+from mjdrive.errors import RouteError
 
 
 class StopLine(NamedTuple):
@@ -35,7 +37,8 @@ def stop_lines(town: Town, route: Route) -> tuple[StopLine, ...]:
     for index, name in enumerate(route.lanes[:-1]):
         light = town.lanes[name].light
         if light is not None:
-            last = np.flatnonzero(route.lane_index == index)[-1]
+            # A lane that is shorter than the distance of two points may have none.
+            last = max(int(np.searchsorted(route.lane_index, index, side="right")) - 1, 0)
             following = min(last + 1, len(route.station) - 1)
             middle = town.lights[light].stop_line.mean(axis=0)
             past = np.hypot(*(route.points[last] - middle))
@@ -43,6 +46,24 @@ def stop_lines(town: Town, route: Route) -> tuple[StopLine, ...]:
                 StopLine(float(min(route.station[last] + past, route.station[following])), light)
             )
     return tuple(found)
+
+
+def require_green(lights: Iterable[TrafficLight]) -> None:
+    """Refuse lights that an expert would wait at for ever.
+
+    Args:
+        lights: Those that a drive may come to.
+
+    Raises:
+        RouteError: If one of them never turns green.
+    """
+    for light in lights:
+        if not any(signal is Signal.GREEN and time > 0 for signal, time in light.program):
+            shown = ", ".join(f"{signal.name.lower()} {time:g} s" for signal, time in light.program)
+            raise RouteError(
+                f"Light '{light.id}' at the end of lane '{light.lane}' never turns green (it shows {shown}), so the expert "
+                f"would wait there for ever. Expected a green that lasts: see 'lights' in town.json, or drive elsewhere."
+            )
 
 
 def point_ahead(route: Route, station: float) -> Float[np.ndarray, "2"]:

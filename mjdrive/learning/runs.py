@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from mjdrive.errors import RunError, UnknownNameError
+from mjdrive.expert import experts
 from models import checkpoint
 
 SOURCE = "source.json"
@@ -53,7 +54,7 @@ def find(name: str, runs: Path) -> Path:
     for folder in (Path(name), runs / name):
         if folder.is_dir():
             return folder
-    known = {folder.name for folder in runs.glob("*") if is_run(folder)} | {"pid"}
+    known = {folder.name for folder in runs.glob("*") if is_run(folder)} | set(experts.NAMES)
     raise UnknownNameError("policy", name, known, hint="A run folder will do, too.")
 
 

@@ -46,3 +46,11 @@ class ContactWatch:
                 ]
                 found.update((InfractionKind.COLLISION, name) for name in others)
         return found
+
+    def obstacles(self) -> list[str]:
+        """Names of the things, kerbs left out, that the car touches now."""
+        return sorted(
+            name
+            for kind, name in self.hits()
+            if kind is InfractionKind.COLLISION and name != "kerb"
+        )

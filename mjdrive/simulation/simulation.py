@@ -89,7 +89,7 @@ class Simulation:
             seed: Decides the time into the light cycle.
 
         Raises:
-            RouteError: If the town has no such lane or the station is not on it.
+            RouteError: If the town has no such lane, the station is not on it, or something solid stands there.
         """
         if lane not in self.town.lanes:
             raise RouteError(
@@ -113,8 +113,17 @@ class Simulation:
             y: Rear-axle centre, world frame [m].
             yaw: Heading [rad].
             seed: Decides the time into the light cycle.
+
+        Raises:
+            RouteError: If something solid is where the car would stand.
         """
         self.car.place(x, y, yaw)
+        in_the_way = self._contacts.obstacles()
+        if in_the_way:
+            raise RouteError(
+                f"The car cannot start at ({x:.1f}, {y:.1f}) in {self.town.name}: {', '.join(in_the_way)} stands there. "
+                f"Expected free ground; start elsewhere, or move what stands on the lane (`mjdrive towns check`)."
+            )
         self.light_phase = signals.phase(self.town, seed)
         self._num_steps = 0
         self._action = _STANDING

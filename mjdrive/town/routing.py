@@ -7,10 +7,11 @@ import numpy as np
 from jaxtyping import Float
 
 from mjdrive.datatypes import Route, Town
-from mjdrive.errors import RouteError, UnknownNameError
+from mjdrive.errors import RouteError
 from mjdrive.geometry import Projection, project, wrap_angle
 from mjdrive.town.lane_graph import LaneGraph, Place, lane_length, onward
-from mjdrive.town.route_line import lay
+from mjdrive.town.random_lanes import random_lanes
+from mjdrive.town.route_line import Chain, lay
 
 _METRES_PER_RADIAN = 1.0
 """How far a lane may lie further off when its heading fits better by one radian [m/rad]."""
@@ -66,6 +67,17 @@ def _vertices(town: Town) -> tuple[Float[np.ndarray, "N 2"], np.ndarray]:
     return np.concatenate(lines), np.cumsum([0, *(len(line) for line in lines[:-1])])
 
 
+@lru_cache(maxsize=4)
+def _boxes(
+    town: Town,
+) -> tuple[tuple[str, ...], Float[np.ndarray, "N 2"], Float[np.ndarray, "N 2"]]:
+    """Name the lanes, and the south-west and north-east corners of boxes that hold them [m]."""
+    points, starts = _vertices(town)
+    reach = np.array([[lane.width] for lane in town.lanes.values()])
+    low, high = (extreme.reduceat(points, starts, axis=0) for extreme in (np.minimum, np.maximum))
+    return tuple(town.lanes), low - reach, high + reach
+
+
 def route_through(town: Town, waypoints: Float[np.ndarray, "K 2"]) -> Route:
     """Lay the shortest route through waypoints in their order, along the direction of the lanes.
 
@@ -119,29 +131,21 @@ def random_route(
         UnknownNameError: If there is no such lane.
         RouteError: If the station is not on the lane, or every way comes to a dead end too soon.
     """
-    if lane not in town.lanes:
-        raise UnknownNameError("lane", lane, town.lanes)
-    if not 0.0 <= station <= lane_length(town.lanes[lane]):
-        raise RouteError(
-            f"Station {station} m is not on lane '{lane}'; expected 0 to {lane_length(town.lanes[lane]):.2f} m."
-        )
-    ahead = onward(town)
+    chain = random_chain(town, lane=lane, station=station, length=length, rng=rng)
+    return lay(town, chain.lanes, start=chain.start, end=chain.end)
+
+
+def random_chain(
+    town: Town, *, lane: str, station: float, length: float, rng: np.random.Generator
+) -> Chain:
+    """Choose the lanes of a random route without laying it; see `random_route`."""
+    names = random_lanes(town, lane=lane, station=station, length=length, rng=rng)
+    lanes = [next(names)]
     left = length - (lane_length(town.lanes[lane]) - station)
-    if ahead[lane] < left:
-        raise RouteError(
-            f"From station {station:.1f} m of lane '{lane}' the lanes lead on for {length - left + ahead[lane]:.1f} m; "
-            f"expected {length:.1f} m. Drive less far (fewer --steps) or start elsewhere (another --seed)."
-        )
-    chain = [lane]
-    while left > 0.0:
-        ways = [
-            name
-            for name in town.lanes[chain[-1]].successors
-            if lane_length(town.lanes[name]) + ahead[name] >= left - _ROUNDING
-        ]
-        chain.append(ways[int(rng.integers(len(ways)))])
-        left -= lane_length(town.lanes[chain[-1]])
-    return lay(town, chain, start=station, end=lane_length(town.lanes[chain[-1]]) + left)
+    while left > _ROUNDING:
+        lanes.append(next(names))
+        left -= lane_length(town.lanes[lanes[-1]])
+    return Chain(tuple(lanes), station, lane_length(town.lanes[lanes[-1]]) + left)
 
 
 def random_start(town: Town, rng: np.random.Generator, *, length: float = 0.0) -> tuple[str, float]:
@@ -214,10 +218,10 @@ def _best_way(graph: LaneGraph, ways: list[_Way], place: Place, off: float) -> _
 def _places(town: Town, index: int, waypoint: Float[np.ndarray, "2"]) -> list[tuple[Place, float]]:
     """Find the places on lanes that a waypoint lies on, and its distances from the centre lines [m]."""
     found = []
-    points, starts = _vertices(town)
-    reach = np.sqrt(np.minimum.reduceat(np.sum((points - waypoint) ** 2, axis=1), starts))
-    for lane, distance in zip(town.lanes.values(), reach, strict=True):
-        if distance <= lane.width:
+    names, low, high = _boxes(town)
+    for number in np.flatnonzero(((low <= waypoint) & (waypoint <= high)).all(axis=1)):
+        lane = town.lanes[names[number]]
+        if ((lane.centerline - waypoint) ** 2).sum(axis=1).min() <= lane.width**2:
             projection = project(lane.centerline, waypoint)
             if abs(projection.offset) <= lane.width / 2:
                 found.append((Place(lane.id, projection.station), abs(projection.offset)))

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 from mjdrive.cli.main import main
 from mjdrive.datatypes import Town
-from mjdrive.episodes import demonstrations
+from mjdrive.episodes import collector
 from mjdrive.town import library, routing
 from mjdrive.town.settings import TownSettings
 
@@ -89,7 +89,7 @@ def test_same_seed_gives_the_same_bytes(workplace: Path) -> None:
 
 def test_collect_goes_on_where_it_stopped(workplace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     run("collect", "--town", "town02", "--out", "whole")
-    drive = demonstrations.collect_route
+    drive = collector.collect_route
     calls = []
 
     def interrupted(*args: object, **kwargs: object) -> object:
@@ -98,7 +98,7 @@ def test_collect_goes_on_where_it_stopped(workplace: Path, monkeypatch: pytest.M
             raise KeyboardInterrupt
         return drive(*args, **kwargs)
 
-    monkeypatch.setattr(demonstrations, "collect_route", interrupted)
+    monkeypatch.setattr(collector, "collect_route", interrupted)
     words = ["collect", "--town", "town02", "--out", "part"]
     assert CliRunner().invoke(main, words).exit_code == 130
     assert set(digests(workplace / "part")) == {"manifest.json", "first-0.hdf5"}

@@ -58,8 +58,3 @@ def test_foreign_episodes_are_not_overwritten(
     with pytest.raises(DataError, match="is no data set"):
         demonstrations.collect(town02, routes, tmp_path, settings=CollectConfig(), seed=0)
     assert (tmp_path / "short-0.hdf5").read_bytes() == b"mine"
-
-
-def test_episode_seeds_of_neighbouring_collections_differ() -> None:
-    seeds = {demonstrations.episode_seed(seed, index) for seed in range(20) for index in range(20)}
-    assert len(seeds) == 400
