@@ -1,5 +1,9 @@
 """What the lights show: a pure function of time."""
 
+from collections.abc import Mapping
+from functools import lru_cache
+from typing import NamedTuple
+
 import numpy as np
 
 from mjdrive.datatypes import Signal, Town, TrafficLight
@@ -28,7 +32,25 @@ def at(light: TrafficLight, time: float) -> Signal:
 
 def all_at(town: Town, time: float) -> dict[str, Signal]:
     """Tell what every light of a town shows at a time [s], by name."""
-    return {name: at(light, time) for name, light in town.lights.items()}
+    lights = _lights_in_step(town)
+    shown = [at(light, time) for light in lights.unlike]
+    return {name: shown[index] for name, index in lights.index.items()}
+
+
+class _LightsInStep(NamedTuple):
+    """Lights that change together: one of each kind, and which kind every light is of, by name."""
+
+    unlike: tuple[TrafficLight, ...]
+    index: Mapping[str, int]
+
+
+@lru_cache(maxsize=4)
+def _lights_in_step(town: Town) -> _LightsInStep:
+    programs = {name: (light.program, light.offset) for name, light in town.lights.items()}
+    kinds = {program: index for index, program in enumerate(dict.fromkeys(programs.values()))}
+    first = {kinds[programs[name]]: light for name, light in reversed(town.lights.items())}
+    unlike = tuple(first[index] for index in range(len(kinds)))
+    return _LightsInStep(unlike, {name: kinds[program] for name, program in programs.items()})
 
 
 def duration(light: TrafficLight) -> float:

@@ -46,6 +46,14 @@ def test_approaches_turn_green_in_the_order_of_the_controllers(ladder: Town) -> 
         assert signals.at(light, start + 13.0) == Signal.RED
 
 
+@pytest.mark.parametrize("name", library.shipped_names())
+def test_all_lights_show_what_each_shows_in_the_order_of_the_town(name: str) -> None:
+    town = library.load(name)
+    for time in TIMES[::37]:
+        each = {light: signals.at(town.lights[light], time) for light in town.lights}
+        assert list(signals.all_at(town, time).items()) == list(each.items())
+
+
 @given(time=st.integers(-10_000, 10_000), turns=st.integers(-5, 5))
 def test_lights_repeat_after_a_cycle(time: int, turns: int) -> None:
     town = library.load("town02")
