@@ -48,8 +48,10 @@ class _LightsInStep(NamedTuple):
 def _lights_in_step(town: Town) -> _LightsInStep:
     programs = {name: (light.program, light.offset) for name, light in town.lights.items()}
     kinds = {program: index for index, program in enumerate(dict.fromkeys(programs.values()))}
-    first = {kinds[programs[name]]: light for name, light in reversed(town.lights.items())}
-    unlike = tuple(first[index] for index in range(len(kinds)))
+    first: dict[int, TrafficLight] = {}
+    for name, program in programs.items():
+        first.setdefault(kinds[program], town.lights[name])
+    unlike = tuple(first.values())
     return _LightsInStep(unlike, {name: kinds[program] for name, program in programs.items()})
 
 
