@@ -34,14 +34,14 @@ def all_at(town: Town, time: float) -> dict[str, Signal]:
     """Tell what every light of a town shows at a time [s], by name."""
     lights = _lights_in_step(town)
     shown = [at(light, time) for light in lights.unlike]
-    return {name: shown[index] for name, index in lights.index.items()}
+    return {name: shown[kind] for name, kind in lights.kind.items()}
 
 
 class _LightsInStep(NamedTuple):
     """Lights that change together: one of each kind, and which kind every light is of, by name."""
 
     unlike: tuple[TrafficLight, ...]
-    index: Mapping[str, int]
+    kind: Mapping[str, int]
 
 
 @lru_cache(maxsize=4)
