@@ -1,8 +1,12 @@
 """`mjdrive tune`: fit the settings of an expert to a car."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import rich_click as click
+
+if TYPE_CHECKING:
+    from mjdrive.tuning.gains import Evidence
 
 TUNINGS = Path("tunings")
 
@@ -102,15 +106,7 @@ def tune(
     rows: dict[str, object] = {}
     for evidence in (gains.tuned_on, gains.checked_on):
         if evidence is not None:
-            before, after = evidence.before, evidence.after
-            rows[f"{evidence.town}: cost"] = f"{before.cost:.2f} before, {after.cost:.2f} after"
-            rows["  distance from the route"] = (
-                f"{before.offset_rms_m:.3f} and {after.offset_rms_m:.3f} m RMS"
-            )
-            rows["  steering whiteness"] = (
-                f"{before.steering_whiteness:.2f} and {after.steering_whiteness:.2f} 1/s"
-            )
-            rows["  mishaps"] = f"{before.mishaps} and {after.mishaps}"
+            rows |= _compared(evidence)
     for name in gains.tuned:
         rows[name] = gains.settings[name]
     rows |= {"settings": folder / GAINS, "picture": folder / PICTURE}
@@ -120,3 +116,14 @@ def tune(
         next_command=f"mjdrive drive --town {check_name} --policy {expert} --gains {folder / GAINS}"
         + ("" if car_name == "default" else f" --car {car_name}"),
     )
+
+
+def _compared(evidence: "Evidence") -> dict[str, str]:
+    """Rows of how one town was driven before and after."""
+    before, after, town = evidence.before, evidence.after, evidence.town
+    return {
+        f"{town}: cost": f"{before.cost:.2f} before, {after.cost:.2f} after",
+        f"{town}: off the route": f"{before.offset_rms_m:.3f} and {after.offset_rms_m:.3f} m RMS",
+        f"{town}: steering whiteness": f"{before.steering_whiteness:.2f} and {after.steering_whiteness:.2f} 1/s",
+        f"{town}: mishaps": f"{before.mishaps} and {after.mishaps}",
+    }

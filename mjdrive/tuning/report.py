@@ -71,7 +71,7 @@ def draw_tuning(tuning: Tuning, path: Path) -> None:
         commands.set(xlabel="time in the tightest bend [s]", ylabel="steering command [-]")
         for axes in (offsets, commands):
             axes.axhline(0.0, color="#d0d7de", lw=0.8, zorder=0)
-            axes.legend(frameon=False, loc="upper right", ncols=2)
+            _legend_above(axes)
         save(figure, path)
 
 
@@ -87,7 +87,11 @@ def _draw_costs(axes: Axes, tried: Sequence[Tried]) -> None:
         label=f"best so far: {costs[0]:.2f} at the start, {best(tuple(tried)).marks.cost:.2f} at the end",
     )
     axes.set(xlabel="trial", ylabel="cost [-]", ylim=(0.0, 1.05 * ceiling))
-    axes.legend(frameon=False, loc="upper right")
+    _legend_above(axes)
+
+
+def _legend_above(axes: Axes) -> None:
+    axes.legend(frameon=False, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=2)
 
 
 def _metres(traces: Sequence[Trace]) -> np.ndarray:
