@@ -160,7 +160,7 @@ def project(
     """Project a point onto a polyline.
 
     Args:
-        points: Polyline with at least two points, neighbours distinct [m].
+        points: Polyline with at least two points [m].
         point: Point to project [m].
         first_segment: First segment to look at, to follow a line that crosses itself.
         last_segment: Last segment to look at (inclusive); the end of the line if None.
@@ -173,7 +173,8 @@ def project(
     along = points[first_segment + 1 : stop + 1] - start
     length = np.hypot(*along.T)
     relative = point - start
-    fraction = np.clip(np.sum(relative * along, axis=1) / length**2, 0.0, 1.0)
+    squared = np.maximum(length**2, np.finfo(float).tiny)  # a segment may be a point
+    fraction = np.clip(np.sum(relative * along, axis=1) / squared, 0.0, 1.0)
     gap = relative - fraction[:, None] * along
     distance = np.hypot(*gap.T)
     best = int(np.argmin(distance))

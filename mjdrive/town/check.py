@@ -6,7 +6,8 @@ import numpy as np
 import shapely
 
 from mjdrive.datatypes import Lane, Town
-from mjdrive.geometry import curvatures, headings, resample, stations, wrap_angle
+from mjdrive.geometry import headings, wrap_angle
+from mjdrive.town.bends import tight_turns
 from mjdrive.town.findings import Finding, FindingKind, Severity
 from mjdrive.town.lane_graph import lane_length, onward, round_trips
 from mjdrive.town.lights import light_signals
@@ -23,6 +24,9 @@ LARGEST_KINK = 0.1
 
 NARROWEST_LANE = 1.8
 """Narrowest lane that the car fits into [m]."""
+
+SHORTEST_LANE = 0.001
+"""Shortest lane that cars have a direction on [m]."""
 
 TIGHTEST_TURN = 3.5
 """Smallest radius that the car can follow at the centre of the lane without cutting the bend [m]."""
@@ -42,6 +46,7 @@ def check(town: Town, road_map: RoadMap | None = None) -> tuple[Finding, ...]:
         What was found, the worst first, in the order of kinds and lanes.
     """
     found = [finding for lane in town.lanes.values() for finding in _lane_findings(town, lane)]
+    found += _tight_turns(town)
     found += _unreached(town)
     found += _on_lanes(town)
     found += _crossed_stop_lines(town)
@@ -55,6 +60,14 @@ def check(town: Town, road_map: RoadMap | None = None) -> tuple[Finding, ...]:
 
 def _lane_findings(town: Town, lane: Lane) -> Iterator[Finding]:
     yield from _joints(town, lane)
+    length = lane_length(lane)
+    if length < SHORTEST_LANE:
+        yield Finding(
+            FindingKind.NO_LENGTH,
+            Severity.ERROR,
+            lane.id,
+            f"The lane is {length:.4f} m long; expected {SHORTEST_LANE} m or more. Its middle may lie at the centre of a bend.",
+        )
     if not lane.successors:
         yield _dead_end(town, lane)
     widths = np.array([lane.width]) if lane.widths is None else lane.widths
@@ -66,14 +79,6 @@ def _lane_findings(town: Town, lane: Lane) -> Iterator[Finding]:
             lane.id,
             f"The lane is {widths.max() if always else widths.min():.2f} m wide {'at most' if always else 'where it tapers'}; the car "
             f"needs {NARROWEST_LANE} m.",
-        )
-    radius = _smallest_radius(lane)
-    if radius < TIGHTEST_TURN:
-        yield Finding(
-            FindingKind.TIGHT_TURN,
-            Severity.NOTE,
-            lane.id,
-            f"Its centre bends with a radius of {radius:.1f} m; the car follows {TIGHTEST_TURN} m and cuts this bend.",
         )
 
 
@@ -117,15 +122,16 @@ def _joints(town: Town, lane: Lane) -> Iterator[Finding]:
             )
 
 
-def _smallest_radius(lane: Lane) -> float:
-    """Smallest radius of the centre line over about a metre; infinite where it is straight [m]."""
-    length = stations(lane.centerline)[-1]
-    pieces = int(length / 0.5)
-    if pieces < 2:
-        return np.inf
-    # Evenly spaced, so that no short last step makes a bend of rounding.
-    curvature = np.abs(curvatures(resample(lane.centerline, length / pieces))).max()
-    return np.inf if curvature == 0.0 else float(1.0 / curvature)
+def _tight_turns(town: Town) -> list[Finding]:
+    return [
+        Finding(
+            FindingKind.TIGHT_TURN,
+            Severity.NOTE,
+            lane.id,
+            f"Its centre bends with a radius of {radius:.1f} m; the car follows {TIGHTEST_TURN} m and cuts this bend.",
+        )
+        for lane, radius in tight_turns(town, TIGHTEST_TURN)
+    ]
 
 
 def _unreached(town: Town) -> list[Finding]:

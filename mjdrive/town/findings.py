@@ -16,6 +16,7 @@ class FindingKind(StrEnum):
     """What can be wrong with a town."""
 
     GAP = "gap"
+    NO_LENGTH = "lane without length"
     DEAD_END = "dead end"
     ON_LANE = "thing on a lane"
     IDLE_LIGHT = "light that controls nothing"

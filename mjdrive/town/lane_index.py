@@ -18,6 +18,9 @@ _CELL = 8.0
 _SEAM = 0.01
 """Cracks between lanes that count as rounding, not as gaps [m]."""
 
+_SHORTEST_SEGMENT = 1e-9
+"""Shorter segments, as a lane at the centre of its bend has them, count as points [m]."""
+
 _FRAME, _LENGTH, _HALF_WIDTHS = slice(0, 6), 6, slice(7, 9)
 """Columns of the table of `_segments`."""
 
@@ -160,8 +163,9 @@ def _segments(lane: Lane) -> np.ndarray:
     both ends, station of its start, yaw, and how far beyond both ends the lane goes on.
     """
     start, along = lane.centerline[:-1], np.diff(lane.centerline, axis=0)
-    length = np.hypot(*along.T)
+    length = np.maximum(np.hypot(*along.T), _SHORTEST_SEGMENT)
     cos, sin = along.T / length
+    cos[length == _SHORTEST_SEGMENT] = 1.0  # of a point any direction will do, and some are needed
     x, y = start.T
     half = 0.5 * (np.full(len(start) + 1, lane.width) if lane.widths is None else lane.widths)
     # Between two segments lies a wedge that belongs to the lane; beyond the first and the last one it ends.

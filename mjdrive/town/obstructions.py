@@ -1,12 +1,13 @@
 """Things that stand where cars drive."""
 
+from collections import defaultdict
 from collections.abc import Iterator
 from typing import NamedTuple
 
 import shapely
 
 from mjdrive.datatypes import StaticObject, Town
-from mjdrive.town.surface import lane_polygons
+from mjdrive.town.surface import outline
 
 _REACH = 0.1
 """Things may reach this far over the edge of a lane, as kerbs and barriers of sound maps do [m]."""
@@ -45,14 +46,29 @@ def obstructions(town: Town) -> Iterator[Obstruction]:
     Yields:
         Each thing that stands on one or more lanes: lights first, then signs, then objects.
     """
-    names = list(town.lanes)
-    tree = shapely.STRtree(shapely.buffer(list(lane_polygons(town).values()), -_REACH))
-    for thing, what, ground in _grounds(town):
-        below = sorted(tree.query(ground, predicate="intersects").tolist())
+    lanes = list(town.lanes.values())
+    things = list(_grounds(town))
+    if not things:
+        return
+    # Most lanes have nothing near: outlines are drawn of the others alone.
+    tree = shapely.STRtree([shapely.LineString(lane.centerline) for lane in lanes])
+    widest = max(lane.width if lane.widths is None else lane.widths.max() for lane in lanes)
+    thing_numbers, lane_numbers = tree.query(
+        [ground for _, _, ground in things], predicate="dwithin", distance=widest
+    )
+    near: dict[int, list[int]] = defaultdict(list)
+    for thing_number, lane_number in zip(thing_numbers, lane_numbers, strict=True):
+        near[int(thing_number)].append(int(lane_number))
+    areas = {
+        number: shapely.buffer(outline(lanes[number]), -_REACH) for number in set(lane_numbers)
+    }
+    for number in sorted(near):
+        thing, what, ground = things[number]
+        below = [n for n in sorted(near[number]) if shapely.intersects(areas[n], ground)]
         if below:
-            place = shapely.intersection(ground, tree.geometries[below[0]]).representative_point()
-            lanes = tuple(names[index] for index in below)
-            yield Obstruction(thing, what, place.x, place.y, lanes)
+            place = shapely.intersection(ground, areas[below[0]]).representative_point()
+            names = tuple(lanes[n].id for n in below)
+            yield Obstruction(thing, what, place.x, place.y, names)
 
 
 def _grounds(town: Town) -> Iterator[tuple[str, str, shapely.Geometry]]:

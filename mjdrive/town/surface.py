@@ -33,6 +33,10 @@ _THINNEST = 0.01
 """Width that a lane keeps in its polygon where it tapers to nothing [m]."""
 
 
+_SHORTEST_LANE = 1e-6
+"""A shorter lane is a point and covers no ground [m]."""
+
+
 def edges(lane: Lane) -> tuple[Float[np.ndarray, "N 2"], Float[np.ndarray, "N 2"]]:
     """Draw both edges of a lane, in its direction of travel.
 
@@ -55,7 +59,7 @@ def lane_polygons(town: Town) -> dict[str, Polygon]:
     Returns:
         The area of each lane by its name, world frame [m].
     """
-    return {name: _outline(lane) for name, lane in town.lanes.items()}
+    return {name: outline(lane) for name, lane in town.lanes.items()}
 
 
 @lru_cache(maxsize=4)
@@ -111,7 +115,7 @@ def _is_island(hole: Polygon, around: Polygon, near: Collection[Lane]) -> bool:
         return False
     junctions = {lane.junction for lane in near if lane.junction is not None}
     streets = [
-        shapely.intersection(_outline(lane), around) for lane in near if lane.junction is None
+        shapely.intersection(outline(lane), around) for lane in near if lane.junction is None
     ]
     # Streets come up to a leftover with their ends; beside an island they run along.
     return len(junctions) != 1 or any(_extent(part) >= _RUNS_BESIDE for part in streets)
@@ -123,11 +127,20 @@ def _extent(part: shapely.Geometry) -> float:
     return float(np.hypot(high_x - low_x, high_y - low_y))
 
 
-def _outline(lane: Lane) -> Polygon:
+def outline(lane: Lane) -> Polygon:
+    """Outline one lane.
+
+    Args:
+        lane: The lane.
+
+    Returns:
+        Its area, world frame [m]; empty if the lane has no length.
+    """
+    line = LineString(lane.centerline)
+    if line.length < _SHORTEST_LANE:
+        return Polygon()
     if lane.widths is None:
-        return LineString(lane.centerline).buffer(
-            0.5 * lane.width, cap_style="flat", join_style="mitre"
-        )
+        return line.buffer(0.5 * lane.width, cap_style="flat", join_style="mitre")
     half = np.maximum(lane.widths, _THINNEST) / 2
     left, right = (offset_polyline(lane.centerline, side * half) for side in (1.0, -1.0))
     # Piece by piece: in a tight bend the inner edge runs back on itself.

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from mjdrive.datatypes import Town
-from mjdrive.town import library, opendrive
+from mjdrive.town import library, opendrive, routing, surface
 from mjdrive.town.check import Finding, FindingKind, Severity, check
+from mjdrive.town.lane_index import LaneIndex
 from mjdrive.town.network import build_town
 from mjdrive.town.opendrive.road_map import RoadMap
 from mjdrive.town.opendrive.road_shapes import Cubic
@@ -151,3 +152,21 @@ def test_the_worst_comes_first(roundabout_map: RoadMap) -> None:
     assert kinds[FindingKind.KINK] == 8, "the ways in and out are straight"
     severities = [finding.severity for finding in found]
     assert severities == sorted(severities, reverse=True)
+
+
+TURNTABLE = b"""<OpenDRIVE><header revMajor="1" revMinor="4"/><road id="1" length="6" junction="-1">
+<planView><geometry s="0" x="0" y="0" hdg="0" length="6"><arc curvature="0.5"/></geometry></planView>
+<lanes><laneSection s="0"><left><lane id="1" type="driving"><width sOffset="0" a="4" b="0" c="0" d="0"/></lane></left>
+<center><lane id="0" type="none"/></center></laneSection></lanes></road></OpenDRIVE>"""
+"""A lane of 4 m inside a bend of 2 m: its middle stays at the centre."""
+
+
+def test_a_lane_at_the_centre_of_its_bend_is_found_and_troubles_nobody() -> None:
+    town = _build(opendrive.parse(TURNTABLE, source="turntable"))
+    (finding,) = (f for f in check(town) if f.kind is FindingKind.NO_LENGTH)
+    assert (finding.where, finding.severity) == ("1/0/1", Severity.ERROR)
+    assert surface.lane_polygons(town)["1/0/1"].is_empty
+    (place,) = LaneIndex(town).near(3.0, 2.0)
+    assert abs(place.offset) == pytest.approx(3.0)
+    name, seen = routing.nearest_lane(town, np.array([0.0, 5.0]))
+    assert (name, abs(seen.offset)) == ("1/0/1", pytest.approx(3.0))
