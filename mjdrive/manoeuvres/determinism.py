@@ -75,7 +75,7 @@ def bars(car: Path | None = None, duration: float = DURATION) -> tuple[Bar, ...]
     first = digest(car, duration)
     elsewhere = [digest_elsewhere(car, duration, num_threads=count) for count in (1, NUM_AT_ONCE)]
     others = [digest(car, duration), *elsewhere, *digests_at_once(car, duration)]
-    different = sum(other != first for other in others)
+    different = float(sum(other != first for other in others))
     reason = f"again; in processes of 1 and {NUM_AT_ONCE} threads; {NUM_AT_ONCE} drives at once"
     name = f"same seed, {len(others)} drives of {duration:.0f} s"
-    return (Bar(name, "drives of other bytes", different, "drives", most=0, reason=reason),)
+    return (Bar(name, "drives of other bytes", different, "drives", most=0.0, reason=reason),)

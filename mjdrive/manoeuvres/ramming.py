@@ -219,14 +219,14 @@ def bars(rams: Mapping[str, Sequence[Ram]]) -> tuple[Bar, ...]:
         for kind, of_kind in rams.items()
     ]
     every = [ram for of_kind in rams.values() for ram in of_kind]
-    broken = sum(not ram.is_finite for ram in every)
-    warnings = sum(ram.num_warnings for ram in every)
+    broken = float(sum(not ram.is_finite for ram in every))
+    warnings = float(sum(ram.num_warnings for ram in every))
     gain = max((ram.gain for ram in every), default=math.nan)
     final = max((ram.final_speed for ram in every), default=math.nan)
     return (
         *found,
-        Bar(name, "impacts that end in no number", broken, "impacts", most=0),
-        Bar(name, "warnings of MuJoCo", warnings, "warnings", most=0),
+        Bar(name, "impacts that end in no number", broken, "impacts", most=0.0),
+        Bar(name, "warnings of MuJoCo", warnings, "warnings", most=0.0),
         Bar(name, "energy gained", gain, "%", most=MOST_GAIN, reason="of the kinetic energy"),
         Bar(name, "speed after braking", final, "m/s", most=STANDS, reason="comes to rest"),
     )

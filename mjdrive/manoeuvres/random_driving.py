@@ -131,14 +131,14 @@ def upright(data: mujoco.MjData) -> float:
 def bars(drives: Sequence[RandomDrive], duration: float = DURATION) -> tuple[Bar, ...]:
     """Hold the worst of all seeds against the limits."""
     name = f"random actions, {len(drives)} x {duration:,.0f} s"
-    broken = sum(not drive.is_finite for drive in drives)
-    warnings = sum(drive.num_warnings for drive in drives)
+    broken = float(sum(not drive.is_finite for drive in drives))
+    warnings = float(sum(drive.num_warnings for drive in drives))
     gain = max(drive.largest_gain for drive in drives)
     roll = max(drive.largest_roll for drive in drives)
     final = max(drive.final_speed for drive in drives)
     return (
-        Bar(name, "drives that end in no number", broken, "drives", most=0),
-        Bar(name, "warnings of MuJoCo", warnings, "warnings", most=0),
+        Bar(name, "drives that end in no number", broken, "drives", most=0.0),
+        Bar(name, "warnings of MuJoCo", warnings, "warnings", most=0.0),
         Bar(name, "energy gained without throttle", gain, "J", most=MOST_GAIN, reason="in 0.1 s"),
         Bar(name, "lean", roll, "deg", most=MOST_ROLL, reason="never rolls over"),
         Bar(name, "speed after braking", final, "m/s", most=0.02, reason="comes to rest"),

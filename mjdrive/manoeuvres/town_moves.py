@@ -135,9 +135,9 @@ def bars(drives: Sequence[MoveDrive], town: str = TOWN) -> tuple[Bar, ...]:
         Bar(
             f"moves of {town}",
             f"not drivable, of {len(drives)}",
-            len(broken),
+            float(len(broken)),
             "moves",
-            most=0,
+            most=0.0,
             reason=reason or f"largest offset {worst.largest_offset:.2f} m, on {worst.lane}",
         ),
     )

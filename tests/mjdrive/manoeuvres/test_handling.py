@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from mjdrive.manoeuvres import acceleration, braking, figures, standstill, step_steer
+from mjdrive.manoeuvres import acceleration, braking, convergence, figures, standstill, step_steer
 from mjdrive.manoeuvres.bars import failed
 from mjdrive.manoeuvres.rig import GRAVITY, Rig
 
@@ -115,6 +115,24 @@ def test_full_lock_is_ackermann(driven):
     circle = driven.turning_circle
     assert circle.radius == pytest.approx(circle.expected_radius, rel=0.02)
     assert circle.kerb_to_kerb == pytest.approx(10.9, abs=0.2)
+
+
+def test_finer_timestep_that_changes_a_figure_is_found_out(driven):
+    assert set(convergence.changes(driven, driven).values()) == {0.0}
+    short, long = driven.stops
+    slower = dataclasses.replace(driven, stops=(short._replace(recording=long.recording), long))
+    changes = convergence.changes(driven, slower)
+    assert max(changes, key=lambda name: abs(changes[name])) == "stop from 50 km/h"
+    assert changes["stop from 50 km/h"] > convergence.MOST_CHANGE
+
+
+def test_half_the_timestep_stops_and_turns_the_same(driven):
+    finer = Rig.of_car(timestep=0.0025)
+    stop = braking.brake(finer, 50)
+    assert stop.distance == pytest.approx(driven.stops[0].distance, rel=0.01)
+    step = step_steer.step(finer)
+    assert step.gain == pytest.approx(driven.step.gain, rel=0.01)
+    assert step.rise_time == pytest.approx(driven.step.rise_time, rel=0.05)
 
 
 def test_pictures_are_small_and_the_same_for_the_same_drive(driven, tmp_path):

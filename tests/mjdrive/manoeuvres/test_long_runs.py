@@ -1,0 +1,180 @@
+"""Short versions of what `mjdrive car test` does for long: nothing breaks, the bytes are the same, bars are found out."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from mjdrive.datatypes import Town
+from mjdrive.manoeuvres import (
+    cost,
+    determinism,
+    ramming,
+    random_driving,
+    suite,
+    town_moves,
+)
+from mjdrive.manoeuvres.bars import failed
+from mjdrive.manoeuvres.energy import EnergyMeter
+from mjdrive.manoeuvres.ramming import Ram, RammingGround
+from mjdrive.manoeuvres.random_driving import RandomDrive
+from mjdrive.manoeuvres.rig import GRAVITY, Rig
+from mjdrive.simulation.simulation import Simulation
+from mjdrive.town.lane_graph import lane_length
+
+TIGHTEST = 4
+
+
+@pytest.fixture(scope="module")
+def ground(town02: Town) -> RammingGround:
+    return RammingGround(town02)
+
+
+def test_random_driving_breaks_nothing_and_makes_no_energy():
+    drives = [random_driving.drive_randomly(seed, duration=20.0) for seed in (1, 2)]
+    assert failed(random_driving.bars(drives, 20.0)) == ()
+    assert max(drive.largest_roll for drive in drives) > 1.0  # it was wild
+
+
+@pytest.mark.parametrize(
+    "broken",
+    [
+        {"largest_gain": 6.0},
+        {"largest_roll": 60.0},
+        {"final_speed": 0.1},
+        {"num_warnings": 1},
+        {"is_finite": False},
+    ],
+)
+def test_one_bad_seed_of_many_is_found_out(broken):
+    good = RandomDrive(0, 0.0, 5.0, 0.0, 0, is_finite=True)
+    assert failed(random_driving.bars([good, good])) == ()
+    assert len(failed(random_driving.bars([good, good._replace(**broken)]))) == 1
+
+
+def test_random_actions_are_the_seeds_and_cover_the_pedals():
+    actions = random_driving.random_actions(np.random.default_rng(3), 200.0)
+    assert actions == random_driving.random_actions(np.random.default_rng(3), 200.0)
+    assert actions != random_driving.random_actions(np.random.default_rng(4), 200.0)
+    assert len(actions) == 2000
+    pedals, steering = np.array([(it.acceleration, it.steering) for it in actions]).T
+    assert pedals.min() < -0.8
+    assert pedals.max() > 0.8
+    assert (pedals == 0.0).any()
+    assert np.ptp(steering) > 1.5
+
+
+def test_energy_of_a_rolling_car_is_that_of_its_mass_and_wheels(rig):
+    speed = 20.0
+    meter = EnergyMeter(rig.model, rig.data, rig.car)
+    rig.place()
+    at_rest = meter.read()
+    rig.place(speed=speed)
+    parameters = rig.car.parameters
+    wheels = 4 * parameters.wheel_inertia / parameters.wheel_radius**2
+    expected = 0.5 * (parameters.mass + wheels) * speed**2
+    assert meter.read() - at_rest == pytest.approx(expected, rel=0.01)
+
+
+def test_energy_counts_what_the_tyres_carry(rig):
+    meter = EnergyMeter(rig.model, rig.data, rig.car)
+    parameters = rig.car.parameters
+    rig.place()
+    on_tyres = meter.read()
+    per_wheel = parameters.mass * GRAVITY / 4
+    stored = 4 * 0.5 * per_wheel**2 / parameters.tyre_vertical_stiffness
+    assert on_tyres - float(rig.data.energy.sum()) == pytest.approx(stored, rel=0.05)
+
+
+def test_every_kind_of_obstacle_stops_the_car(ground):
+    rams = ramming.ram_all(ground, per_kind=1)
+    assert set(rams) == set(ramming.KINDS)
+    assert failed(ramming.bars(rams)) == ()
+    for kind, (ram,) in rams.items():
+        assert ram.obstacle.startswith(kind)
+        assert ram.depth > 0.001  # it was hit
+
+
+@pytest.mark.parametrize(
+    "broken",
+    [
+        {"depth": 0.5},
+        {"gain": 1.0},
+        {"final_speed": 1.0},
+        {"num_warnings": 1},
+        {"is_finite": False},
+    ],
+)
+def test_one_bad_impact_is_found_out(broken):
+    good = Ram("pole_1", 0.1, 0.0, 0.0, 0, is_finite=True)
+    assert failed(ramming.bars({"pole": [good]})) == ()
+    assert len(failed(ramming.bars({"pole": [good, good._replace(**broken)]}))) == 1
+
+
+def test_a_kind_that_was_never_hit_is_no_proof():
+    good = Ram("pole_1", 0.1, 0.0, 0.0, 0, is_finite=True)
+    assert [bar.figure for bar in failed(ramming.bars({"pole": [good], "tree": []}))] == [
+        "depth in tree, deepest of 0"
+    ]
+
+
+def test_barriers_stand_across_lanes(town02):
+    town = ramming.with_barriers(town02)
+    assert len(town.objects) >= ramming.PER_KIND
+    for barrier in town.objects:
+        x, y = barrier.outline.T
+        area = 0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1))
+        assert area == pytest.approx(8.0 * 0.5)  # counter-clockwise
+
+
+def test_tightest_moves_of_town02_can_be_driven(simulation: Simulation):
+    town = simulation.town
+    names = town_moves.moves(town)
+    assert len(names) == 48
+    tightest = sorted(names, key=lambda name: lane_length(town.lanes[name]))[:TIGHTEST]
+    drives = town_moves.drive_moves(simulation, tightest)
+    assert failed(town_moves.bars(drives)) == ()
+
+
+def test_move_that_cannot_be_driven_is_named(town02):
+    clean = town_moves.MoveDrive("a", (), 0.1, arrived=True)
+    stuck = clean._replace(lane="b", arrived=False)
+    kerb = clean._replace(lane="c", breaches=("kerb (kerb)",))
+    (bar,) = failed(town_moves.bars([clean, stuck, kerb]))
+    assert bar.measured == 2
+    assert bar.reason == "b: never arrived; c: kerb (kerb)"
+
+
+def test_route_over_a_move_begins_before_and_ends_after_the_junction(town02):
+    for name in town_moves.moves(town02):
+        before, move, after = town_moves.route_over(town02, name).lanes
+        assert move == name
+        assert town02.lanes[before].junction is None
+        assert town02.lanes[after].junction is None
+
+
+def test_same_seed_gives_the_same_bytes_wherever_it_drives():
+    assert failed(determinism.bars(duration=4.0)) == ()
+
+
+def test_longer_drive_has_another_digest():
+    assert determinism.digest(duration=2.0) != determinism.digest(duration=2.1)
+
+
+def test_cost_counts_the_physics_of_every_step(simulation: Simulation, monkeypatch):
+    monkeypatch.setattr(cost, "NUM_STEPS", 5)
+    monkeypatch.setattr(cost, "NUM_ROUNDS", 2)
+    steps = []
+    step = mujoco.mj_step
+    monkeypatch.setattr(mujoco, "mj_step", lambda *args: (steps.append(args[2]), step(*args)))
+    measured = cost.measure(simulation.town)
+    assert sum(steps) == 3 * 5 * 20  # once to record, twice to repeat
+    assert 0.0 < measured.best_ms <= measured.median_ms
+
+
+def test_rig_and_town_have_the_same_car(simulation: Simulation):
+    assert Rig.of_car().car.parameters == simulation.car.parameters
+
+
+def test_full_plan_is_that_of_the_issue():
+    plan = suite.Plan()
+    assert (plan.num_seeds, plan.random_duration) == (20, 1000.0)
