@@ -24,6 +24,7 @@ GAP = 3.0  # between nose and obstacle at the start [m]
 NUM_HEADINGS = 16
 RAM_TIME = 1.0  # rolling into it, pedals free [s]
 BRAKE_TIME = 8.0  # then [s]
+BARRIER = (0.5, 6.0, 0.9)  # length along the lane, width across it, height [m]
 MOST_DEPTH = 0.3  # of hull or tyre in an obstacle; a crumple zone is longer [m]
 MOST_GAIN = 0.1  # of energy above that of the approach, over its kinetic energy [%]
 STANDS = 0.05  # [m/s]
@@ -61,12 +62,13 @@ def with_barriers(town: Town) -> Town:
     barriers = []
     for number, lane in enumerate(lanes[:: max(len(lanes) // PER_KIND, 1)]):
         middle = len(lane.centerline) // 2
-        along = lane.centerline[middle] - lane.centerline[middle - 1]
-        along = 0.25 * along / np.hypot(*along)
-        across = 4.0 * np.array([-along[1], along[0]])
+        ahead = lane.centerline[middle] - lane.centerline[middle - 1]
+        ahead = ahead / np.hypot(*ahead)
+        along = 0.5 * BARRIER[0] * ahead
+        across = 0.5 * BARRIER[1] * np.array([-ahead[1], ahead[0]])
         corners = [along - across, along + across, -along + across, -along - across]
         outline = lane.centerline[middle] + np.array(corners)
-        barriers.append(StaticObject(f"barrier{number}", "barrier", outline, height=0.9))
+        barriers.append(StaticObject(f"barrier{number}", "barrier", outline, height=BARRIER[2]))
     return dataclasses.replace(town, objects=(*town.objects, *barriers))
 
 

@@ -123,7 +123,7 @@ def test_barriers_stand_across_lanes(town02):
     for barrier in town.objects:
         x, y = barrier.outline.T
         area = 0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1))
-        assert area == pytest.approx(8.0 * 0.5)  # counter-clockwise
+        assert area == pytest.approx(6.0 * 0.5)  # counter-clockwise
 
 
 def test_tightest_moves_of_town02_can_be_driven(simulation: Simulation):
