@@ -61,6 +61,12 @@ import rich_click as click
     help="A car that comes with mjdrive (default, mkz), or an MJCF file of your own.",
 )
 @click.option(
+    "--gains",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Settings of the expert that `mjdrive tune` found for this car.",
+)
+@click.option(
     "--seed",
     default=0,
     show_default=True,
@@ -94,6 +100,7 @@ def collect(
     noise: float | None,
     throttle_noise: float | None,
     car_name: str,
+    gains: Path | None,
     seed: int,
     jobs: int,
     out: Path | None,
@@ -112,6 +119,7 @@ def collect(
     from mjdrive.errors import ConfigError
     from mjdrive.evaluation.figures import draw_dataset
     from mjdrive.town import library
+    from mjdrive.tuning.gains import applied
     from mjdrive.vehicle import cars
 
     if overwrite and mix:
@@ -130,6 +138,8 @@ def collect(
         noise=noise,
         throttle_noise=throttle_noise,
     )
+    if gains is not None:
+        settings = applied(settings, gains, car)
     routes = lay_routes(town, waypoints, settings=settings)
     planned = plan(town, routes, settings=settings, seed=seed)
     folder = out or Path("data") / town.name

@@ -38,6 +38,12 @@ DRIVES = Path("drives")
     help="A car that comes with mjdrive (default, mkz), or an MJCF file of your own.",
 )
 @click.option(
+    "--gains",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Settings of the expert that `mjdrive tune` found for this car.",
+)
+@click.option(
     "--seed",
     default=0,
     show_default=True,
@@ -57,6 +63,7 @@ def drive(
     policy_name: str | None,
     preset: str | None,
     car_name: str,
+    gains: Path | None,
     seed: int,
     out: Path | None,
 ) -> None:
@@ -75,6 +82,8 @@ def drive(
     car = cars.load(car_name)
     town = library.load(town_name)
     driver = find_driver(policy_name, RUNS, preset=preset)
+    if gains is not None:
+        driver = driver.tuned(gains, car)
     folder = out or report.new_folder(DRIVES, datetime.datetime.now())
     report.require_new(folder)
     with progress_bars() as bars:
@@ -106,7 +115,7 @@ def drive(
         },
         next_command=f"mjdrive drive --town {town.name} --policy pid --seed {seed}"
         if driver.pilot is not None
-        else f"mjdrive drive --town {town.name} --seed {seed + 1}",
+        else f"mjdrive drive --town {town.name} --policy {driver.name} --seed {seed + 1}",
     )
 
 

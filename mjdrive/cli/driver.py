@@ -13,6 +13,7 @@ from mjdrive.episodes import driving, store
 from mjdrive.errors import ConfigError
 from mjdrive.expert import experts
 from mjdrive.simulation.simulation import Simulation
+from mjdrive.tuning.gains import applied
 from mjdrive.vehicle.cars import CarModel
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ class Driver:
         digest: SHA-256 of its weights, hexadecimal; empty for an expert.
         settings: Its settings as JSON text.
         pilot: The trained policy, or None for an expert.
+        expert: Which expert drives and its settings, or None for a trained policy.
         learnt_car: Name of the car whose demonstrations it learnt from; empty for the expert.
         learnt_car_digest: Digest of that car; empty if it is not known.
     """
@@ -36,6 +38,7 @@ class Driver:
     settings: str
     digest: str = ""
     pilot: "Pilot | None" = None
+    expert: CollectConfig | None = None
     learnt_car: str = ""
     learnt_car_digest: str = ""
 
@@ -47,6 +50,19 @@ class Driver:
             return car.name
         other = "another version of it" if self.learnt_car == car.name else self.learnt_car
         return f"{car.name}; the policy learnt from {other}"
+
+    def tuned(self, gains: Path, car: CarModel) -> "Driver":
+        """The same expert with settings that `mjdrive tune` found.
+
+        Raises:
+            ConfigError: If the driver is no expert, or the file was made for another expert or car.
+        """
+        if self.expert is None:
+            raise ConfigError(
+                f"--gains {gains} has no effect on the trained policy {self.name}. Leave it out, or name an expert "
+                f"with --policy: {', '.join(experts.NAMES)}."
+            )
+        return _expert_driver(applied(self.expert, gains, car))
 
     def drive(
         self,
@@ -82,11 +98,12 @@ class Driver:
             **versions.to_metadata(versions.versions()),
         }
         if self.pilot is None:
+            assert self.expert is not None, "a driver is a trained policy or an expert"
             return driving.drive_expert(
                 simulation,
                 num_steps=num_steps,
                 seed=seed,
-                config=CollectConfig(expert=experts.known(self.name)),
+                config=self.expert,
                 on_step=on_step,
                 metadata=metadata,
             )
@@ -118,8 +135,7 @@ def find_driver(name: str | None, runs: Path, *, preset: str | None = None) -> D
             raise ConfigError(
                 f"--preset {preset} has no effect on the expert. Leave it out, or name a trained policy."
             )
-        settings = config.PidConfig() if name == "pid" else config.MpcConfig()
-        return Driver(name, settings=config.to_json(settings))
+        return _expert_driver(CollectConfig(expert=experts.known(name)))
     from mjdrive.learning import pilot  # torch takes a second
     from mjdrive.learning import runs as run_folders
     from mjdrive.learning.training import Source
@@ -136,3 +152,8 @@ def find_driver(name: str | None, runs: Path, *, preset: str | None = None) -> D
         learnt_car=source.car,
         learnt_car_digest=source.car_digest,
     )
+
+
+def _expert_driver(expert: CollectConfig) -> Driver:
+    settings = expert.pid if expert.expert == "pid" else expert.mpc
+    return Driver(expert.expert, settings=config.to_json(settings), expert=expert)

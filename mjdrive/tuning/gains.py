@@ -1,12 +1,13 @@
 """The file of tuned settings and its evidence."""
 
+import dataclasses
 import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
 from mjdrive import config
-from mjdrive.config import MpcConfig, PidConfig
+from mjdrive.config import CollectConfig, MpcConfig, PidConfig
 from mjdrive.errors import ConfigError
 from mjdrive.tuning.marks import Marks
 from mjdrive.vehicle.cars import CarModel
@@ -96,6 +97,25 @@ def load(path: Path, kind: type[Settings], car: CarModel) -> Settings:
             f"{car.digest[:12]}. {again}"
         )
     return config.from_dict(kind, gains.settings)
+
+
+def applied(settings: CollectConfig, path: Path, car: CarModel) -> CollectConfig:
+    """Let the expert of some settings drive with tuned ones.
+
+    Args:
+        settings: Who drives, and how.
+        path: File that `mjdrive tune` wrote.
+        car: The car that is driven.
+
+    Returns:
+        The same with the tuned settings of that expert.
+
+    Raises:
+        ConfigError: If the file is no such file, or was made for another expert or another car.
+    """
+    if settings.expert == "pid":
+        return dataclasses.replace(settings, pid=load(path, PidConfig, car))
+    return dataclasses.replace(settings, mpc=load(path, MpcConfig, car))
 
 
 def plain(settings: object) -> dict[str, Any]:

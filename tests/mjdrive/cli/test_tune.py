@@ -1,0 +1,72 @@
+"""`mjdrive tune`, and `--gains` of collect and drive."""
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from mjdrive.cli.main import main
+from mjdrive.episodes import store
+
+DRIVE = ("drive", "--town", "town02", "--steps", "2")
+
+
+def run(*words: str) -> Result:
+    return CliRunner().invoke(main, list(words), catch_exceptions=False)
+
+
+@pytest.fixture(scope="module")
+def tuned(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder in which the PID was tuned to the default car, as short as can be."""
+    folder = tmp_path_factory.mktemp("tuned")
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        monkeypatch.chdir(folder)
+        done = run("tune", "--town", "town02", "--check-town", "town02", "--trials", "2")
+    assert done.exit_code == 0
+    assert "town02: off the route" in done.stdout
+    return folder
+
+
+@pytest.fixture
+def workplace(tuned: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tuned)
+    return tuned
+
+
+def test_tuning_leaves_gains_trials_and_a_picture(workplace):
+    names = {path.name for path in (workplace / "tunings/pid-default").iterdir()}
+    assert names == {"gains.json", "trials.json", "tuning.png"}
+
+
+def test_tuning_is_never_overwritten(workplace):
+    again = run("tune", "--town", "town02", "--trials", "2")
+    assert (again.exit_code, "is there already" in again.stderr) == (2, True)
+
+
+def test_expert_drives_with_tuned_settings_and_says_so(workplace):
+    path = workplace / "tunings/pid-default/gains.json"
+    gains = json.loads(path.read_text())
+    gains["settings"]["target_speed"] = 5.5
+    (workplace / "slower.json").write_text(json.dumps(gains))
+    done = run(*DRIVE, "--policy", "pid", "--gains", "slower.json", "--out", "d")
+    assert done.exit_code == 0
+    metadata = store.read(workplace / "d/episode.hdf5").metadata
+    assert json.loads(metadata["settings"])["policy"]["target_speed"] == 5.5
+
+
+def test_gains_of_another_car_are_refused_by_drive_and_collect(workplace):
+    gains = ("--gains", "tunings/pid-default/gains.json", "--car", "mkz")
+    for words in (
+        (*DRIVE, "--policy", "pid", "--out", "e"),
+        ("collect", "--town", "town02"),
+    ):
+        refused = run(*words, *gains)
+        assert (refused.exit_code, "tuned for car 'default'" in refused.stderr) == (2, True)
+    assert not (workplace / "e").exists()
+    assert not (workplace / "data").exists()
+
+
+def test_unknown_expert_is_refused_before_anything_runs(workplace):
+    refused = run("tune", "pdi")
+    assert (refused.exit_code, "Did you mean 'pid'" in refused.stderr) == (2, True)
