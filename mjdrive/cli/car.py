@@ -82,7 +82,7 @@ def run_tests(
     "--out",
     type=click.Path(path_type=Path),
     metavar="DIR",
-    help="New folder for the picture. [default: car_comparisons/<date and time>]",
+    help="New folder for figures and picture. [default: car_comparisons/<date and time>]",
 )
 def compare(*, car_name: str, out: Path | None) -> None:
     """Put the car beside models of cars: kinematic, linear single-track, and CommonRoad's multi-body BMW 320i.
@@ -109,6 +109,7 @@ def compare(*, car_name: str, out: Path | None) -> None:
         if with_bmw:
             task = bars.add_task("BMW 320i, three models", total=4 * count, unit="manoeuvres")
             compared.append(comparison.compare_bmw(lambda: bars.advance(task)))
+    comparison.write(compared, folder / "comparison.json")
     comparison_figure.draw(compared, folder / "comparison.png")
     for result in compared:
         comparison_table(result)

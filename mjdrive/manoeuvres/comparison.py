@@ -1,11 +1,14 @@
 """The car beside models of cars: the same manoeuvres, driven by the same code."""
 
+import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
+from mjdrive.files import write_atomically
 from mjdrive.manoeuvres import bmw_320i, multi_body, steady_circle, step_steer
 from mjdrive.manoeuvres.plant import UPDATE_INTERVAL, Plant
 from mjdrive.manoeuvres.rig import GRAVITY, Rig
@@ -143,3 +146,23 @@ def _drive_all(
         slides = name not in (KINEMATIC, LINEAR)
         behaviours[name] = Behaviour(circles, step, slides)
     return Comparison(title, behaviours)
+
+
+def write(comparisons: Sequence[Comparison], path: Path) -> None:
+    """Write every figure as JSON.
+
+    Args:
+        comparisons: What was compared.
+        path: File to write.
+    """
+    content = {
+        comparison.title: {
+            model: {
+                figure: {"unit": unit, "value": value if math.isfinite(value) else None}
+                for figure, (unit, value) in behaviour.figures().items()
+            }
+            for model, behaviour in comparison.behaviours.items()
+        }
+        for comparison in comparisons
+    }
+    write_atomically(path, (json.dumps(content, indent=2) + "\n").encode())

@@ -32,7 +32,7 @@ def draw(comparisons: Sequence[Comparison], path: Path) -> None:
         path: PNG file to write.
     """
     with matplotlib.style.context(["default", STYLE]):
-        figure = Figure(figsize=(9.0, 3.6 * len(comparisons)), layout="constrained")
+        figure = Figure(figsize=(8.0, 3.0 * len(comparisons)), layout="constrained")
         rows = figure.subplots(len(comparisons), 2, squeeze=False)
         for (left, right), comparison in zip(rows, comparisons, strict=True):
             for name, behaviour in comparison.behaviours.items():
@@ -40,15 +40,15 @@ def draw(comparisons: Sequence[Comparison], path: Path) -> None:
                 _draw_circle(left, behaviour, name, color, line)
                 _draw_step(right, behaviour, color, line)
             left.set(
-                title=f"{comparison.title}: steady circle, {SPEED_KMH} km/h",
-                xlabel="lateral acceleration [m/s²]",
+                title=f"{comparison.title}: steady circle",
+                xlabel=f"lateral acceleration at {SPEED_KMH} km/h [m/s²]",
                 ylabel="steering angle [deg]",
                 xlim=(0.0, MOST_SHOWN),
                 ylim=(0.0, None),
             )
-            left.legend(frameon=False)
+            left.legend(frameon=False, fontsize=8)
             right.set(
-                title=f"{comparison.title}: step steer, {SPEED_KMH} km/h",
+                title=f"{comparison.title}: step steer",
                 xlabel="time since half of the steering angle [s]",
                 ylabel="yaw rate / its steady value [-]",
                 xlim=(-0.2, 1.5),
