@@ -1,8 +1,8 @@
 """Who drives: the expert, or a trained run, behind one call."""
 
 import json
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -30,8 +30,7 @@ class Driver:
         settings: Its settings as JSON text.
         pilot: The trained policy, or None for an expert.
         expert: Which expert drives and its settings, or None for a trained policy.
-        learnt_car: Name of the car whose demonstrations it learnt from; empty for the expert.
-        learnt_car_digest: Digest of that car; empty if it is not known.
+        learnt_cars: Name of each car whose demonstrations it learnt from, by its digest; none for the expert.
     """
 
     name: str
@@ -39,17 +38,16 @@ class Driver:
     digest: str = ""
     pilot: "Pilot | None" = None
     expert: CollectConfig | None = None
-    learnt_car: str = ""
-    learnt_car_digest: str = ""
+    learnt_cars: Mapping[str, str] = field(default_factory=dict)
 
     def car_note(self, car: CarModel) -> str:
-        """Name a car for people, and the one that the policy learnt from if that is another."""
-        if car.digest == self.learnt_car_digest or (
-            not self.learnt_car_digest and self.learnt_car in ("", car.name)
-        ):
+        """Name a car for people, and those that the policy learnt from if there are others."""
+        others = {digest: name for digest, name in self.learnt_cars.items() if digest != car.digest}
+        if not others or others == {"": car.name}:
             return car.name
-        other = "another version of it" if self.learnt_car == car.name else self.learnt_car
-        return f"{car.name}; the policy learnt from {other}"
+        names = sorted(set(self.learnt_cars.values()))
+        learnt = "another version of it" if names == [car.name] else " and ".join(names)
+        return f"{car.name}; the policy learnt from {learnt}"
 
     def tuned(self, gains: Path, car: CarModel) -> "Driver":
         """The same expert with settings that `mjdrive tune` found.
@@ -92,7 +90,7 @@ class Driver:
             "town_digest": town.digest,
             "car": car.name,
             "car_digest": car.digest,
-            "policy_car": self.learnt_car,
+            "policy_cars": json.dumps(dict(self.learnt_cars), sort_keys=True),
             "policy_digest": self.digest,
             "settings": json.dumps(settings, sort_keys=True),
             **versions.to_metadata(versions.versions()),
@@ -149,8 +147,7 @@ def find_driver(name: str | None, runs: Path, *, preset: str | None = None) -> D
         settings=serialization.to_json(policy.config),
         digest=store.digest((folder / checkpoint.MODEL).read_bytes()),
         pilot=policy,
-        learnt_car=source.car,
-        learnt_car_digest=source.car_digest,
+        learnt_cars=source.cars,
     )
 
 

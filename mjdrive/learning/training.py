@@ -12,7 +12,7 @@ from mjdrive.errors import RunError
 from mjdrive.learning import runs
 from mjdrive.learning.batches import PackedDemonstrations
 from mjdrive.town import library
-from mjdrive.vehicle import cars
+from mjdrive.vehicle.cars import DEFAULT
 from mjdrive.versions import versions
 from models.config import LearnerConfig
 from models.errors import ModelsError
@@ -30,16 +30,15 @@ class Source:
         manifest_sha256: Digest of the manifest of the data set, hexadecimal.
         num_demonstrations: Pairs of observation and action [-].
         versions: Versions of the software that trained.
-        car: Name of the car that was driven in them; runs from before one could choose know the default car alone.
-        car_digest: Digest of its MJCF.
+        cars: Name of each car that drove in them, by its digest; runs from before one could choose know the default
+            car alone, by no digest.
     """
 
     town: str
     manifest_sha256: str
     num_demonstrations: int
     versions: dict[str, str]
-    car: str = cars.DEFAULT
-    car_digest: str = ""
+    cars: dict[str, str] = dataclasses.field(default_factory=lambda: {"": DEFAULT})
 
     def require_same(self, earlier: "Source", run: Path) -> None:
         """Refuse to go on with a run that was begun on other data.
@@ -108,8 +107,7 @@ def train(
         manifest_sha256=dataset.digest(data),
         num_demonstrations=len(demonstrations),
         versions=versions(),
-        car=manifest.car,
-        car_digest=manifest.car_digest,
+        cars={driven.car_digest: driven.car for driven in manifest.collections},
     )
     if resume:
         source.require_same(read_json(Source, run / runs.SOURCE), run)

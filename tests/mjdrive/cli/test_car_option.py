@@ -86,20 +86,23 @@ def test_car_that_cannot_drive_is_refused_before_anything_is_written(
 
 
 @pytest.mark.parametrize(
-    ("learnt", "digest", "note"),
+    ("learnt", "note"),
     [
-        ("", "", "mkz"),
-        ("mkz", cars.load("mkz").digest, "mkz"),
-        ("mkz", "", "mkz"),
-        ("my_mkz.xml", cars.load("mkz").digest, "mkz"),
-        ("default", cars.load().digest, "mkz; the policy learnt from default"),
-        ("default", "", "mkz; the policy learnt from default"),
-        ("mkz", "0" * 64, "mkz; the policy learnt from another version of it"),
+        ({}, "mkz"),
+        ({cars.load("mkz").digest: "mkz"}, "mkz"),
+        ({cars.load("mkz").digest: "my_mkz.xml"}, "mkz"),
+        ({"": "mkz"}, "mkz"),
+        ({"": "default"}, "mkz; the policy learnt from default"),
+        ({cars.load().digest: "default"}, "mkz; the policy learnt from default"),
+        (
+            {cars.load().digest: "default", cars.load("mkz").digest: "mkz"},
+            "mkz; the policy learnt from default and mkz",
+        ),
+        ({"0" * 64: "mkz"}, "mkz; the policy learnt from another version of it"),
     ],
 )
-def test_note_names_the_car_that_a_policy_learnt_from_if_it_is_another(learnt, digest, note):
-    driver = Driver("bc", settings="{}", learnt_car=learnt, learnt_car_digest=digest)
-    assert driver.car_note(cars.load("mkz")) == note
+def test_note_names_the_cars_that_a_policy_learnt_from_if_there_are_others(learnt, note):
+    assert Driver("bc", settings="{}", learnt_cars=learnt).car_note(cars.load("mkz")) == note
 
 
 def test_policy_in_another_car_than_it_learnt_from_is_told_so(workplace):
@@ -109,4 +112,5 @@ def test_policy_in_another_car_than_it_learnt_from_is_told_so(workplace):
     done = run("drive", "--town", "town02", "--steps", "2", "--out", "d")
     assert "default; the policy learnt from mkz" in done.stdout
     metadata = store.read(workplace / "d/episode.hdf5").metadata
-    assert (metadata["car"], metadata["policy_car"]) == ("default", "mkz")
+    assert metadata["car"] == "default"
+    assert json.loads(metadata["policy_cars"]) == {cars.load("mkz").digest: "mkz"}
