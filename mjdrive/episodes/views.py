@@ -1,6 +1,7 @@
 """How a simulation looks to a policy: the bird's-eye view for learned ones, the truth for experts."""
 
 import numpy as np
+from jaxtyping import Float
 
 from mjdrive import geometry
 from mjdrive.datatypes import Observation, Route, Situation
@@ -16,11 +17,15 @@ def observe(simulation: Simulation) -> Observation:
     return simulation.observe()
 
 
-class FollowRoute:
-    """Follows the progress of a car along one route, which may cross itself.
+class RouteProgress:
+    """Finds a car on its route again and again; the route may cross itself.
 
     Args:
         route: Path to follow; the car starts at its beginning.
+
+    Attributes:
+        route: The path.
+        station: Where the car was when it was last looked for [m].
     """
 
     def __init__(self, route: Route) -> None:
@@ -28,30 +33,47 @@ class FollowRoute:
         self.station = float(route.station[0])
         self._segment = 0
 
-    def __call__(self, simulation: Simulation) -> Situation:
-        """The truth as an expert sees it."""
-        vehicle = simulation.vehicle
+    def look(self, position: Float[np.ndarray, "2"]) -> geometry.Projection:
+        """Project a place, not far from the last one, onto the route.
+
+        Args:
+            position: Rear axle of the car, world frame [m].
+        """
         seen = geometry.project(
             self.route.points,
-            np.array([vehicle.x, vehicle.y]),
+            position,
             first_segment=max(self._segment - 2, 0),
             last_segment=self._segment + _SEARCH_AHEAD,
         )
         self._segment = seen.segment
         self.station = float(self.route.station[0]) + seen.station
-        return Situation(
-            time=simulation.time,
-            vehicle=vehicle,
-            route=self.route,
-            station=self.station,
-            offset=seen.offset,
-            lights=simulation.lights,
-        )
+        return seen._replace(station=self.station)
 
     def go_over_to(self, route: Route) -> None:
         """Follow another piece of the same line from now on; points that both have are at equal stations."""
         self._segment -= int(np.searchsorted(self.route.station, route.station[0]))
         self.route = route
+
+
+class FollowRoute(RouteProgress):
+    """Follows the progress of a car along one route, which may cross itself.
+
+    Args:
+        route: Path to follow; the car starts at its beginning.
+    """
+
+    def __call__(self, simulation: Simulation) -> Situation:
+        """The truth as an expert sees it."""
+        vehicle = simulation.vehicle
+        seen = self.look(np.array([vehicle.x, vehicle.y]))
+        return Situation(
+            time=simulation.time,
+            vehicle=vehicle,
+            route=self.route,
+            station=seen.station,
+            offset=seen.offset,
+            lights=simulation.lights,
+        )
 
     @property
     def is_finished(self) -> bool:

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from mjdrive import geometry
 from mjdrive.datatypes import Episode, Route, Signal, Town
+from mjdrive.episodes.views import RouteProgress
 from mjdrive.expert.reference import StopLine, stop_lines
 from mjdrive.town import signals
 
@@ -27,8 +27,8 @@ class LightPassage:
         shown: What the light showed when the nose came over the line.
         braking_needed: What stopping before the line would have taken when the light last turned yellow before that, if
             the car was on its way to it then [m/s2]; None if the light showed green all the way or the car stood.
-        start_delay: Time from the last decision that saw no green to the first at which the car moved, at most one control interval
-            too long [s]; None if the car did not stand before the line when it turned green.
+        start_delay: Time from the last decision that saw no green to the first at which the car moved, so at most one
+            control interval too long [s]; None if the car did not stand before the line when it turned green.
     """
 
     light: str
@@ -36,26 +36,6 @@ class LightPassage:
     shown: Signal
     braking_needed: float | None
     start_delay: float | None
-
-
-def route_stations(episode: Episode, route: Route) -> Float[np.ndarray, " T"]:
-    """Progress of a drive along its route, which may cross itself.
-
-    Args:
-        episode: The drive.
-        route: What it follows, from its start.
-
-    Returns:
-        Station of the rear axle, step by step [m].
-    """
-    found, segment = [], 0
-    for position in episode.vehicle[:, :2]:
-        seen = geometry.project(
-            route.points, position, first_segment=max(segment - 2, 0), last_segment=segment + 15
-        )
-        segment = seen.segment
-        found.append(seen.station)
-    return np.array(found)
 
 
 def light_passages(
@@ -72,7 +52,9 @@ def light_passages(
     Returns:
         The stop lines in the order in which they were met.
     """
-    nose = route_stations(episode, route) + nose_ahead
+    follow = RouteProgress(route)
+    stations = [follow.look(position).station for position in episode.vehicle[:, :2]]
+    nose = np.array(stations) + nose_ahead
     return tuple(
         _passage(episode, town, stop, np.asarray(stop.station - nose))
         for stop in stop_lines(town, route)
@@ -87,7 +69,6 @@ def _passage(
     over = int(np.flatnonzero(to_line < 0.0)[0])
     light, phase = town.lights[stop.light], episode.light_phase
     shown = np.array([signals.at(light, float(time) + phase) for time in episode.time], int)
-    # A nose that stands over the line waits for the light as well: what counts is when it goes on.
     speed = np.abs(episode.vehicle[:, 3])
     yellows = np.flatnonzero((shown[1:] == Signal.YELLOW) & (shown[:-1] == Signal.GREEN)) + 1
     greens = np.flatnonzero((shown[1:] == Signal.GREEN) & (shown[:-1] != Signal.GREEN)) + 1
@@ -122,3 +103,16 @@ def _start_delay(
             moving = np.flatnonzero(speed[green:] >= STANDSTILL_SPEED)
             return float(time[green + moving[0]] - time[green - 1]) if len(moving) else np.inf
     return None
+
+
+def is_rash(passage: LightPassage, *, late_braking: float) -> bool:
+    """Whether a car came over a stop line when it should have stopped.
+
+    Args:
+        passage: How it met the line.
+        late_braking: A yellow is passed when stopping would need more than this [m/s2].
+    """
+    if passage.shown is Signal.GREEN:
+        return False
+    needed = passage.braking_needed
+    return passage.shown is Signal.RED or needed is None or needed <= late_braking
