@@ -1,6 +1,7 @@
 """Paint on the road: lane lines, stop lines, crosswalks and parking spaces."""
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 
 import mujoco
 import numpy as np
@@ -24,6 +25,7 @@ SMOOTHING = 0.005  # lines keep corners larger than this [m]
 CENTRE_LINE = Marking(points=np.zeros((2, 2)), width=0.15, color="white", dash=3.0, gap=3.0)
 STOP_LINE_THICKNESS = 0.4  # along the lane [m]
 STOP_LINE_INSET = 0.2  # at both ends [m]
+FROM_KERB = 1.0  # edges of lanes nearer to it are no lines between lanes [m]
 SAME_LINE = 0.5  # edges of lanes closer than this are one line [m]
 ZEBRA_STRIPE = 0.5  # width of a stripe, and of the gap beside it [m]
 OUTLINE_WIDTH = 0.12  # of parking spaces [m]
@@ -83,24 +85,23 @@ def centre_lines(town: Town) -> list[Marking]:
         One line between each two lanes.
     """
     kerb = shapely.boundary(surface.road_surface(town))
-    lines: list[Marking] = []
-    drawn: list[shapely.LineString] = []
-    for lane in town.lanes.values():
-        for side in (0.5, -0.5) if lane.junction is None else ():
-            edge = offset_polyline(lane.centerline, side * lane.width)
-            line = shapely.LineString(edge)
-            middle = line.interpolate(0.5, normalized=True)
-            if shapely.distance(kerb, middle) < 1.0:
-                continue
-            if any(other.distance(middle) < SAME_LINE for other in drawn):
-                continue
-            drawn.append(line)
-            lines.append(
-                Marking(
-                    edge, CENTRE_LINE.width, CENTRE_LINE.color, CENTRE_LINE.dash, CENTRE_LINE.gap
-                )
-            )
-    return lines
+    shapely.prepare(kerb)
+    edges = [
+        offset_polyline(lane.centerline, side * lane.width)
+        for lane in town.lanes.values()
+        for side in ((0.5, -0.5) if lane.junction is None else ())
+    ]
+    lines = [shapely.LineString(edge) for edge in edges]
+    middles = shapely.line_interpolate_point(lines, 0.5, normalized=True)
+    inside = ~shapely.dwithin(kerb, middles, FROM_KERB)
+    tree = shapely.STRtree(lines)
+    drawn: set[int] = set()
+    for number in np.flatnonzero(inside).tolist():
+        same = tree.query(middles[number], predicate="dwithin", distance=SAME_LINE)
+        if drawn.isdisjoint(same.tolist()):
+            drawn.add(number)
+    look = (CENTRE_LINE.width, CENTRE_LINE.color, CENTRE_LINE.dash, CENTRE_LINE.gap)
+    return [Marking(edges[number], *look) for number in sorted(drawn)]
 
 
 def painted(marking: Marking) -> Iterator[Float[np.ndarray, "_ 2"]]:
@@ -161,8 +162,8 @@ def zebra(area: shapely.Geometry, town: Town) -> shapely.Geometry:
         The stripes, world frame [m].
     """
     middle = shapely.get_coordinates(area.centroid)[0]
-    lines = [shapely.LineString(lane.centerline) for lane in town.lanes.values()]
-    line = lines[int(np.argmin(shapely.distance(lines, area.centroid)))]
+    tree = _centre_lines(town)
+    line = tree.geometries[min(tree.query_nearest(area.centroid))]
     station = line.project(area.centroid)
     before, after = (
         shapely.get_coordinates(line.interpolate(max(station + step, 0.0)))[0]
@@ -179,6 +180,11 @@ def zebra(area: shapely.Geometry, town: Town) -> shapely.Geometry:
         for offset in np.arange(-reach, reach, 2.0 * ZEBRA_STRIPE)
     ]
     return shapely.intersection(shapely.union_all(shapely.polygons(stripes)), area)
+
+
+@lru_cache(maxsize=4)
+def _centre_lines(town: Town) -> shapely.STRtree:
+    return shapely.STRtree([shapely.LineString(lane.centerline) for lane in town.lanes.values()])
 
 
 def _ribbon(points: Float[np.ndarray, "2 2"], width: float) -> Float[np.ndarray, "4 2"]:

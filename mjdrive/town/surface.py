@@ -1,7 +1,8 @@
 """The ground that lanes and roads cover, as polygons."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from functools import lru_cache
+from types import MappingProxyType
 
 import numpy as np
 import shapely
@@ -50,7 +51,8 @@ def edges(lane: Lane) -> tuple[Float[np.ndarray, "N 2"], Float[np.ndarray, "N 2"
     return offset_polyline(lane.centerline, half), offset_polyline(lane.centerline, -half)
 
 
-def lane_polygons(town: Town) -> dict[str, Polygon]:
+@lru_cache(maxsize=4)
+def lane_polygons(town: Town) -> Mapping[str, Polygon]:
     """Outline each lane.
 
     Args:
@@ -59,7 +61,7 @@ def lane_polygons(town: Town) -> dict[str, Polygon]:
     Returns:
         The area of each lane by its name, world frame [m].
     """
-    return {name: outline(lane) for name, lane in town.lanes.items()}
+    return MappingProxyType({name: outline(lane) for name, lane in town.lanes.items()})
 
 
 @lru_cache(maxsize=4)

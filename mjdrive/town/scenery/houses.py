@@ -8,11 +8,13 @@ from jaxtyping import Float
 
 from mjdrive.geometry import stations
 from mjdrive.town.scenery.blocks import Block, block_behind, rings
+from mjdrive.town.scenery.neighbourhood import Neighbourhood
 from mjdrive.town.settings import SceneryConfig
 
 STRAIGHTENING = 0.1  # of the building line [m]
 LARGEST_BEND = 0.6  # between a front and a bent building line [m]
 SHORTENING = 0.8  # a front that bends too much is tried again at this share of its length [-]
+SMALLEST_CELL = 10.0  # of the squares in which houses look for each other [m]
 STEP = 2.0  # to the next try where no front fits [m]
 
 
@@ -40,15 +42,16 @@ def line_with_houses(
         keep_clear = keep_clear | taken
     shapely.prepare(keep_clear)
     houses: list[Block] = []
-    footprints: list[shapely.Polygon] = []
+    built = Neighbourhood[shapely.Polygon](cell=max(scenery.building_width[1], SMALLEST_CELL))
     for ring in rings(shapely.simplify(building_line, STRAIGHTENING)):
         for house in _row(ring, scenery, rng):
             footprint = house.footprint()
+            beside = built.near(footprint.bounds)
             if not keep_clear.intersects(footprint) and not np.any(
-                shapely.intersects(footprints, footprint)
+                shapely.intersects(beside, footprint)
             ):
                 houses.append(house)
-                footprints.append(footprint)
+                built.add(footprint, footprint.bounds)
     return tuple(houses)
 
 

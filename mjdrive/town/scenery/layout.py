@@ -1,7 +1,7 @@
 """What stands and lies beside the roads, as plain geometry: the one layout that pictures, physics and views share."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import shapely
@@ -24,6 +24,7 @@ DRIVER_VIEW = 25.0  # a light or a sign is seen from this far [m]
 SMALLEST_PATCH = 1.0  # smaller scraps of grass are paved [m^2]
 GARDEN_CLEARANCE = 2.5  # between a tree and a house or a sidewalk [m]
 SLIVER = 0.4  # so are narrower ones [m]
+MANY_PARTS = 1000  # patches of grass or paving [-]
 ON_THE_GROUND = 0.05  # objects up to this height are paint [m]
 SMALLEST_BLOCK = (
     700.0  # what roads enclose below this area is an island: grass, no sidewalk, no houses [m^2]
@@ -123,10 +124,10 @@ def _sides(
 
 def _crossings(town: Town) -> shapely.Geometry:
     """Where people cross: junctions and crosswalks."""
-    crossed = [lane for lane in town.lanes.values() if lane.junction is not None]
+    polygons = surface.lane_polygons(town)
+    crossed = [polygons[lane.id] for lane in town.lanes.values() if lane.junction is not None]
     crosswalks = ground_of([thing.outline for thing in town.objects if thing.type == "crosswalk"])
-    polygons = surface.lane_polygons(replace(town, lanes={lane.id: lane for lane in crossed}))
-    return shapely.union_all([*polygons.values(), shapely.buffer(crosswalks, CROSSING_RAMP)])
+    return shapely.union_all([*crossed, shapely.buffer(crosswalks, CROSSING_RAMP)])
 
 
 def _views(town: Town, crossings: shapely.Geometry) -> shapely.Geometry:
@@ -144,8 +145,16 @@ def _line_of_sight(spot: Float[np.ndarray, "2"], yaw: float) -> shapely.LineStri
 
 def _without_scraps(area: shapely.Geometry) -> shapely.Geometry:
     """Drop slivers and small patches."""
-    wide = shapely.buffer(
-        shapely.buffer(area, -0.5 * SLIVER, join_style="mitre"), 0.5 * SLIVER, join_style="mitre"
-    )
+    parts = shapely.get_parts(area)
+    if len(parts) > MANY_PARTS:
+        # Together they would take time that grows with their square; apart they come out in another order.
+        kept = shapely.multipolygons(shapely.get_parts(_shrunk(parts)))
+    else:
+        kept = _shrunk(area)
+    wide = shapely.buffer(kept, 0.5 * SLIVER, join_style="mitre")
     parts = shapely.get_parts(shapely.simplify(wide, CHORD_ERROR))
     return shapely.union_all([part for part in parts if part.area >= SMALLEST_PATCH])
+
+
+def _shrunk(area: shapely.Geometry | np.ndarray) -> shapely.Geometry | np.ndarray:
+    return shapely.buffer(area, -0.5 * SLIVER, join_style="mitre")

@@ -6,6 +6,7 @@ import numpy as np
 import shapely
 
 from mjdrive.town.scenery.blocks import rings
+from mjdrive.town.scenery.neighbourhood import Box, Neighbourhood
 from mjdrive.town.settings import SceneryConfig
 
 TRUNK_RADIUS = (0.11, 0.19)  # [m]
@@ -88,14 +89,27 @@ def plant_gardens(
     shapely.prepare(gardens)
     left, bottom, right, top = gardens.bounds
     num_tries = round((right - left) * (top - bottom) / scenery.garden_tree_spacing**2)
+    planted = Neighbourhood[Tree](cell=2.0 * max(1.0, CROWN_SHARE[1] * scenery.tree_height[1]))
     for _ in range(num_tries):  # those that fall outside keep the density of those inside
         spot = shapely.Point(rng.uniform(left, right), rng.uniform(bottom, top))
         tree = _tree(spot, scenery, rng)
-        reach = [tree.crown_radius + other.crown_radius for other in trees]
-        gaps = [np.hypot(tree.x - other.x, tree.y - other.y) for other in trees]
-        if gardens.contains(spot) and all(np.greater(gaps, reach)):
+        if gardens.contains(spot) and not any(
+            _touch(tree, other) for other in planted.near(_crown(tree))
+        ):
             trees.append(tree)
+            planted.add(tree, _crown(tree))
     return tuple(trees)
+
+
+def _crown(tree: Tree) -> Box:
+    """Ground under a crown [m]."""
+    radius = tree.crown_radius
+    return tree.x - radius, tree.y - radius, tree.x + radius, tree.y + radius
+
+
+def _touch(one: Tree, other: Tree) -> bool:
+    gap = np.hypot(one.x - other.x, one.y - other.y)
+    return bool(gap <= one.crown_radius + other.crown_radius)
 
 
 def _tree(spot: shapely.Point, scenery: SceneryConfig, rng: np.random.Generator) -> Tree:
