@@ -94,14 +94,14 @@ class Car:
     def update(self) -> None:
         """Renew brakes, air drag, tyres and standstill hold from the state; call it some fifty times a second."""
         data = self._data
-        velocity = data.qvel[:2]
-        travel = math.hypot(*velocity)
+        x_speed, y_speed = data.qvel[:2].tolist()
+        travel = math.hypot(x_speed, y_speed)
         rolling = np.abs(data.qvel[self._spin_dof])
         brake = float(data.act[self._brake_act])
         drag = -0.5 * AIR_DENSITY * self.parameters.drag_area * travel
-        data.xfrc_applied[self._body, :2] = drag * velocity
+        data.xfrc_applied[self._body, :2] = drag * x_speed, drag * y_speed
         self._apply(np.maximum(travel, rolling * self.parameters.wheel_radius), brake)
-        self._hold(travel + float(rolling.max()), brake)
+        self._hold(travel + max(rolling.tolist()), brake)
 
     def state(self) -> VehicleState:
         """Read where the car is and how it moves, at the rear axle."""

@@ -32,20 +32,19 @@ class Tyres:
         self._model = model
         first, *_, last = pairs = [model.pair(f"tyre_{wheel}").id for wheel in WHEELS]
         assert pairs == list(range(first, last + 1)), "the pairs of the tyres follow each other"
-        self._inverse_weight = model.body_invweight0[wheels, 0]
-        # Views of the model: rows of neighbours are written several times as fast as rows by number.
-        self._impedance = model.pair_solimp[first : last + 1, :2]
-        self._spring_row = model.pair_solref[first : last + 1, 0]
-        self._damping_row = model.pair_solref[first : last + 1, 1]
-        self._slip_row = model.pair_solreffriction[first : last + 1, 1]
-        model.pair_solreffriction[first : last + 1, 0] = -1.0
+        self._inverse_weight = model.body_invweight0[wheels, 0].tolist()
+        # Views of the model, and lists: four numbers are faster one by one than as arrays.
+        self._solimp = model.pair_solimp[first : last + 1]
+        self._solref = model.pair_solref[first : last + 1]
+        self._solref_friction = model.pair_solreffriction[first : last + 1]
+        self._solref_friction[:, 0] = -1.0
         self._spring = parameters.tyre_vertical_stiffness
         self._damping = parameters.tyre_vertical_damping
         self._slip_damping = STEP_DAMPING / model.opt.timestep
         cornering_stiffness = np.repeat(
             [parameters.cornering_stiffness_front, parameters.cornering_stiffness_rear], 2
         )
-        self._per_speed = self._slip_damping / cornering_stiffness
+        self._per_speed = (self._slip_damping / cornering_stiffness).tolist()
         self._soften_other_contacts([model.geom(f"tyre_{wheel}").id for wheel in WHEELS])
 
     def schedule(self, speeds: Float[np.ndarray, " 4"]) -> None:
@@ -54,22 +53,25 @@ class Tyres:
         Args:
             speeds: Larger of travel and rolling speed, in the order of `WHEELS` [m/s].
         """
-        limited = np.minimum(np.maximum(speeds, MIN_SPEED), MAX_SPEED)
-        friction_regularization = limited * self._per_speed
-        smallest = min(friction_regularization.tolist())
-        ratio = max(IMPEDANCE_RATIO, MIN_NORMAL_REGULARIZATION / smallest)
-        regularization = ratio * friction_regularization
-        impedance = self._inverse_weight / (self._inverse_weight + regularization)
-        scale = regularization * impedance
+        friction = [
+            min(max(speed, MIN_SPEED), MAX_SPEED) * per_speed
+            for speed, per_speed in zip(speeds.tolist(), self._per_speed, strict=True)
+        ]
+        ratio = max(IMPEDANCE_RATIO, MIN_NORMAL_REGULARIZATION / min(friction))
         self._model.opt.impratio = ratio
-        self._impedance[:] = impedance[:, np.newaxis]
-        np.multiply(scale, -self._spring, out=self._spring_row)
-        np.multiply(scale, -self._damping, out=self._damping_row)
-        np.multiply(impedance, -self._slip_damping, out=self._slip_row)
+        for row, weight in enumerate(self._inverse_weight):
+            regularization = ratio * friction[row]
+            impedance = weight / (weight + regularization)
+            scale = regularization * impedance
+            self._solimp[row, 0] = self._solimp[row, 1] = impedance
+            self._solref[row, 0] = -self._spring * scale
+            self._solref[row, 1] = -self._damping * scale
+            self._solref_friction[row, 1] = -self._slip_damping * impedance
 
     def _soften_other_contacts(self, geoms: list[int]) -> None:
         """Give a tyre the same spring against kerbs and walls; a rigid one would kick three times as hard."""
-        impedance = self._inverse_weight / (self._inverse_weight + OTHER_REGULARIZATION)
+        weight = np.array(self._inverse_weight)
+        impedance = weight / (weight + OTHER_REGULARIZATION)
         scale = OTHER_REGULARIZATION * impedance
         self._model.geom_solimp[geoms, 0] = impedance
         self._model.geom_solimp[geoms, 1] = impedance
