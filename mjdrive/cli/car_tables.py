@@ -13,6 +13,9 @@ from mjdrive.manoeuvres.bars import Bar, failed
 from mjdrive.manoeuvres.comparison import Comparison
 from mjdrive.manoeuvres.suite import Report
 
+SMALLEST = 5e-5
+"""What is smaller is shown as 0."""
+
 
 def bars_table(report: Report, files: Sequence[Path]) -> None:
     """Print every figure, its limits and whether it holds.
@@ -82,8 +85,8 @@ def number(value: float, unit: str) -> str:
     """Three digits that matter, and the unit; a dash for what is no number."""
     if not math.isfinite(value):
         return "-"
-    if value == round(value):
-        text = f"{value:,.0f}"
+    if value == round(value) or abs(value) < SMALLEST:
+        text = f"{value:,.0f}".replace("-0", "0")
     else:
         decimals = max(2 - math.floor(math.log10(abs(value))), 0)
         text = f"{value:,.{min(decimals, 4)}f}"

@@ -24,7 +24,8 @@ ACCELERATIONS = (2.0, 4.0, 6.0, 8.0)
 NUM_MANOEUVRES = len(SPEEDS_KMH) + 1
 """Of each car [-]."""
 
-KINEMATIC, LINEAR, MULTI_BODY = "kinematic", "linear single-track", "CommonRoad multi-body"
+KINEMATIC, LINEAR, MULTI_BODY = "kinematic", "linear", "multi-body"
+"""Single-track models, and CommonRoad's model."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -32,7 +32,7 @@ def draw(comparisons: Sequence[Comparison], path: Path) -> None:
         path: PNG file to write.
     """
     with matplotlib.style.context(["default", STYLE]):
-        figure = Figure(figsize=(8.0, 3.0 * len(comparisons)), layout="constrained")
+        figure = Figure(figsize=(7.4, 2.7 * len(comparisons)), layout="constrained")
         rows = figure.subplots(len(comparisons), 2, squeeze=False)
         for (left, right), comparison in zip(rows, comparisons, strict=True):
             for name, behaviour in comparison.behaviours.items():

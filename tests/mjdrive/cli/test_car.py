@@ -111,7 +111,7 @@ def test_comparison_says_what_is_missing_and_shows_the_others(monkeypatch, tmp_p
     ("value", "text"),
     [
         (0.0, "0"), (12.0, "12"), (1234.5, "1,234"), (12.345, "12.3"), (1.2345, "1.23"),
-        (0.012345, "0.0123"), (-0.5, "-0.500"), (1e-7, "0.0000"), (float("nan"), "-"),
+        (0.012345, "0.0123"), (-0.5, "-0.500"), (-1e-7, "0"), (-10.0, "-10"), (float("nan"), "-"),
     ],
 )  # fmt: skip
 def test_numbers_have_three_digits_that_matter(value, text):
