@@ -41,10 +41,10 @@ class MpcConfig:
     horizon: float = 2.0
     offset_tolerance: float = 0.2
     heading_tolerance: float = 0.3
-    station_tolerance: float = 1.0
-    speed_tolerance: float = 0.5
-    acceleration_tolerance: float = 3.0
-    jerk_tolerance: float = 3.0
+    station_tolerance: float = 0.2
+    speed_tolerance: float = 0.1
+    acceleration_tolerance: float = 0.6
+    jerk_tolerance: float = 0.6
     steering_rate_tolerance: float = 0.4
     steering_jolt_tolerance: float = 1.0
     lane_tolerance: float = 0.05

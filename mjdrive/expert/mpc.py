@@ -29,14 +29,15 @@ HOLD_SPEED = 0.15
 HOLD_DISTANCE = 0.4
 """It has come to its resting place when that is this near [m]."""
 
-HANDOVER_TIME = 0.5
+HANDOVER_TIME = 0.2
 """Time constant with which the PID's own action takes the place of the last plan's [s]."""
 
-DISTURBED = 1.5
-"""Acceleration this far from the plan means that something else was driven [m/s2]."""
+PUSHED = 0.06
+"""Wheels this far from their command have been turned by something else than the rack [rad]."""
 
-TRUST = 0.3
-"""Share of a smaller difference that is taken for real: the body pitches, so speed alone misleads [-]."""
+RECOVERED_OFFSET = 0.25
+RECOVERED_HEADING = 0.12
+"""A pushed car is back when it is this near to its route [m] and to its direction [rad]."""
 
 
 class _Plan(NamedTuple):
@@ -44,13 +45,11 @@ class _Plan(NamedTuple):
 
     Attributes:
         time: When [s].
-        speed: Of the car then [m/s].
         variables: The whole plan.
         following: State that it foresaw for the next decision.
     """
 
     time: float
-    speed: float
     variables: Float[np.ndarray, " X"]
     following: BicycleState
 
@@ -99,6 +98,9 @@ class MpcExpert:
         self._pid = PidExpert(
             town, parameters=self._car, config=self._law, control_interval=control_interval
         )
+        self._plan: _Plan | None
+        self._last: Action | None
+        self._gap: Float[np.ndarray, "2"]
         self.reset(0)
 
     @property
@@ -110,8 +112,7 @@ class MpcExpert:
         """Forget the past; the expert is deterministic, so the seed has no effect."""
         self._pid.reset(seed)
         self._route: Route | None = None
-        self._plan: _Plan | None = None
-        self._gap = np.zeros(2)
+        self._forget()
 
     def act(self, view: Situation) -> Action:
         """Follow the route for the next control interval."""
@@ -125,21 +126,47 @@ class MpcExpert:
             config=self._law,
         )
         if self._is_at_rest(view, distance):
-            self._plan, self._gap = None, np.zeros(2)
+            self._forget()
             return Action(acceleration=-1.0, steering=0.0)
-        planned = self._planned(view, distance)
+        self._recovers = self._is_recovering(view)
+        self.solves.recoveries += self._recovers
+        planned = None if self._recovers else self._planned(view, distance)
         own = np.array([stand_in.acceleration, stand_in.steering])
         if planned is None:
             self._plan = None
             self._gap *= math.exp(-self._interval / HANDOVER_TIME)
             acceleration, steering = np.clip(own + self._gap, -1.0, 1.0)
-            return Action(acceleration=float(acceleration), steering=float(steering))
-        self._gap = np.array([planned.acceleration, planned.steering]) - own
+            planned = Action(acceleration=float(acceleration), steering=float(steering))
+        else:
+            self._gap = np.array([planned.acceleration, planned.steering]) - own
+        self._last = planned
         return planned
+
+    def _forget(self) -> None:
+        self._plan = None
+        self._last = None
+        self._gap = np.zeros(2)
+        self._recovers = False
+
+    def _is_recovering(self, view: Situation) -> bool:
+        """Whether something else than the last command turned the wheels, and the car is not yet back on its line.
+
+        Plans are smooth: their commands move no faster than the rack. Against a push that uses up the rack's rate that is
+        too slow, and a wheel that is late winds the plan up (docs/notes.md); the PID's command jumps.
+        """
+        if self._last is None:
+            return False
+        command = self._last.steering * self._car.max_steering_angle
+        if abs(view.vehicle.steering_angle - command) > PUSHED and (
+            self._recovers or self._plan is not None
+        ):
+            return True
+        offset, heading_error = frenet_state(view)
+        is_back = abs(offset) < RECOVERED_OFFSET and abs(heading_error) < RECOVERED_HEADING
+        return self._recovers and not is_back
 
     def _take_route(self, route: Route) -> None:
         self._route = route
-        self._plan = None
         self._stops = reference.stop_lines(self._town, route)
         self._profile = SpeedProfile(
             self._town,
@@ -161,6 +188,7 @@ class MpcExpert:
             station=view.station,
             speed=start.speed,
             distance_to_stop=distance,
+            cap=self._recovery_speed(start),
             num_steps=self._problem.num_steps,
             interval=self._interval,
         )
@@ -173,28 +201,44 @@ class MpcExpert:
         if solution.status is not SolveStatus.SOLVED:
             return None
         following = self._problem.state(solution.variables, 1)
-        self._plan = _Plan(view.time, start.speed, solution.variables, following)
+        self._plan = _Plan(view.time, solution.variables, following)
         return self._action(start, following)
 
     def _start(self, view: Situation) -> BicycleState:
-        """State of the car; acceleration and steering rate from what was planned, unless something else was driven."""
-        vehicle, car, config = view.vehicle, self._car, self.config
-        speed = max(vehicle.speed, 0.0)
-        angle = float(
-            np.clip(vehicle.steering_angle, -car.max_steering_angle, car.max_steering_angle)
-        )
-        acceleration = rate = 0.0
+        """State of the car, with the commands of the last plan in place of what came of them.
+
+        Whoever pushes the car, a disturbance of `collect` first of all, must not become part of the plan: it would be
+        commanded again, and on top of it comes the next push.
+        """
+        vehicle, limit = view.vehicle, self._car.max_steering_angle
+        offset, heading_error = frenet_state(view)
         plan = self._plan
         if plan is not None and abs(view.time - plan.time - self._interval) < 1e-6:
-            surprise = (speed - plan.following.speed) / self._interval
-            acceleration = plan.following.acceleration + TRUST * surprise
-            if abs(surprise) > DISTURBED:
-                acceleration = (speed - plan.speed) / self._interval
-            limit = config.steering_rate_share * car.max_steering_rate
-            missed = (angle - plan.following.steering_angle) / self._interval
-            rate = float(np.clip(plan.following.steering_rate + missed, -limit, limit))
-        offset, heading_error = frenet_state(view)
+            acceleration = plan.following.acceleration
+            angle, rate = plan.following.steering_angle, plan.following.steering_rate
+        else:
+            acceleration, rate = self._driven(vehicle.speed), 0.0
+            angle = float(np.clip(vehicle.steering_angle, -limit, limit))
+        speed = max(vehicle.speed, 0.0)
         return BicycleState(0.0, offset, heading_error, speed, acceleration, angle, rate)
+
+    def _driven(self, speed: float) -> float:
+        """Acceleration that the last pedal has come to, for a plan that follows no plan [m/s2]."""
+        if self._last is None or speed < HOLD_SPEED:
+            return 0.0
+        return self._drivetrain.acceleration(self._last.acceleration, speed)
+
+    def _recovery_speed(self, start: BicycleState) -> float:
+        """Speed at which the rack is quick enough to come back to the route [m/s].
+
+        The farther off the car is, or the last plan foresaw that it would come, the slower.
+        """
+        law, astray = self._law, abs(start.offset)
+        if self._plan is not None:
+            astray = max(astray, self._problem.largest_offset(self._plan.variables))
+        far = law.recovery_offset
+        speeds = (law.target_speed, law.recovery_speed, 0.5 * law.recovery_speed)
+        return float(np.interp(astray, (0.5 * far, far, 2.0 * far), speeds))
 
     def _guess(self, start: BicycleState, goal: Reference) -> Float[np.ndarray, " X"]:
         """Where the solver begins: the last plan, one interval later, or the reference itself."""

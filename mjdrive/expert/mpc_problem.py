@@ -178,8 +178,8 @@ class MpcProblem:
         config, car = self._config, self._car
         upper = np.full(self._num_variables, np.inf)
         lower = -upper
-        rate = config.steering_rate_share * car.max_steering_rate
         later = self.state_index[1:]
+        rate = config.steering_rate_share * car.max_steering_rate
         for name, low, high in (
             ("steering_angle", -car.max_steering_angle, car.max_steering_angle),
             ("steering_rate", -rate, rate),
@@ -199,6 +199,11 @@ class MpcProblem:
     def state(self, variables: Float[np.ndarray, " X"], k: int) -> BicycleState:
         """State number k of a plan; its station is counted from the car [m]."""
         return BicycleState(*variables[self.state_index[k]].tolist())
+
+    def largest_offset(self, variables: Float[np.ndarray, " X"]) -> float:
+        """Farthest from the route that a plan comes [m]."""
+        column = self.state_index[:, BicycleState._fields.index("offset")]
+        return float(np.abs(variables[column]).max())
 
     def along(self, start: BicycleState, reference: Reference) -> Float[np.ndarray, " X"]:
         """A first guess: the car follows the reference without an error."""

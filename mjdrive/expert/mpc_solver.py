@@ -48,6 +48,7 @@ class SolveCounts:
         solved: Plans found [-].
         max_iterations: Solves that were given up at the limit of iterations [-].
         failed: Solves that ended without a plan [-].
+        recoveries: Decisions that were left to the PID without a solve, because something had pushed the car [-].
         late: Solves that took longer than `MpcConfig.late_after`, plan or not [-]; hangs on the machine, decides nothing.
         times: CPU time of each solve [s].
     """
@@ -55,6 +56,7 @@ class SolveCounts:
     solved: int = 0
     max_iterations: int = 0
     failed: int = 0
+    recoveries: int = 0
     late: int = 0
     times: list[float] = field(default_factory=list)
 

@@ -1,5 +1,6 @@
 """The reference of a plan: how far and how fast along a route, second by second."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +11,9 @@ from mjdrive.datatypes import Route, Town
 
 PAST_BEND = 1.0
 """A bend holds the speed down until the rear axle is this far beyond it [m], as in `reference.turn_speed_limit`."""
+
+RECOVERY_BRAKING = 4.0
+"""Deceleration of a car that is off its route, until it is slow enough to steer back [m/s2]."""
 
 
 class Reference(NamedTuple):
@@ -106,6 +110,7 @@ class SpeedProfile:
         station: float,
         speed: float,
         distance_to_stop: float | None,
+        cap: float = np.inf,
         num_steps: int,
         interval: float,
     ) -> Reference:
@@ -115,6 +120,7 @@ class SpeedProfile:
             station: Progress of the car along the route [m].
             speed: Of the car [m/s].
             distance_to_stop: How far it may still roll [m], or None if nothing asks it to stop.
+            cap: Speed to come down to at once, to steer back to the route [m/s].
             num_steps: Number of intervals N [-].
             interval: Length of one [s].
 
@@ -126,7 +132,11 @@ class SpeedProfile:
         for _ in range(num_steps):
             here, now = stations[-1], speeds[-1]
             there = here + now * interval
-            allowed = min(self.limit(there), float(np.sqrt(2 * braking * max(stop - there, 0.0))))
+            allowed = min(
+                self.limit(there),
+                math.sqrt(2 * braking * max(stop - there, 0.0)),
+                max(cap, now - RECOVERY_BRAKING * interval),
+            )
             following = max(
                 min(now + self._acceleration * interval, allowed),
                 now - self._max_braking * interval,

@@ -1,52 +1,39 @@
-import dataclasses
-
 import numpy as np
 import pytest
 
-from mjdrive.evaluation.comfort import jerk_rms, steering_whiteness
+from mjdrive.evaluation.comfort import jerk_rms, steering_unrest, steering_whiteness
+
+INTERVAL = 0.1
+TIME = INTERVAL * np.arange(2001)
 
 
-def with_speed(make_drive, speed):
-    drive = make_drive(np.zeros(len(speed)))
-    vehicle = drive.vehicle.copy()
-    vehicle[:, 3] = speed
-    return dataclasses.replace(drive, vehicle=vehicle)
+def test_even_acceleration_has_no_jerk_and_an_even_turn_of_the_wheel_no_unrest():
+    ramp = 3.0 + 0.5 * TIME
+    assert jerk_rms(ramp, interval=INTERVAL) == pytest.approx(0.0, abs=1e-9)
+    assert steering_unrest(ramp, interval=INTERVAL) == pytest.approx(0.0, abs=1e-9)
+    assert steering_whiteness(ramp, interval=INTERVAL) == pytest.approx(0.5)
 
 
-def with_steering(drive, steering):
-    labels = drive.labels.copy()
-    labels[:, 1] = steering
-    return dataclasses.replace(drive, labels=labels)
+def test_figures_of_a_sine_are_its_derivatives():
+    amplitude, rate = 0.2, 0.5
+    wave = amplitude * np.sin(rate * TIME)
+    assert steering_whiteness(wave, interval=INTERVAL) == pytest.approx(
+        amplitude * rate / np.sqrt(2), rel=0.01
+    )
+    second = amplitude * rate**2 / np.sqrt(2)
+    assert steering_unrest(wave, interval=INTERVAL) == pytest.approx(second, rel=0.01)
+    assert jerk_rms(wave, interval=INTERVAL) == pytest.approx(second, rel=0.01)
 
 
-def test_whiteness_of_a_steady_turn_of_the_wheel_is_its_rate(make_drive):
-    drive = make_drive(0.5 * np.arange(50))
-    assert steering_whiteness(with_steering(drive, 0.02 * np.arange(50))) == pytest.approx(0.2)
+def test_unrest_tells_a_twitching_hand_from_a_steady_one_that_turns_as_far():
+    steady = np.linspace(0.0, 1.0, 101)
+    twitching = np.repeat(steady[::5], 5)[:101]
+    assert steering_unrest(twitching, interval=INTERVAL) > 5 * steering_unrest(
+        steady, interval=INTERVAL
+    )
 
 
-def test_whiteness_of_a_sine_is_its_frequency_times_the_root_mean_square(make_drive):
-    drive = make_drive(0.5 * np.arange(2001))
-    steering = 0.3 * np.sin(2 * np.pi * 0.5 * drive.time)
-    expected = 0.3 / np.sqrt(2) * 2 * np.pi * 0.5
-    assert steering_whiteness(with_steering(drive, steering)) == pytest.approx(expected, rel=0.01)
-
-
-def test_steering_at_a_standstill_is_no_comfort_lost(make_drive):
-    drive = make_drive(np.zeros(50))
-    assert steering_whiteness(with_steering(drive, np.tile([-1.0, 1.0], 25))) == 0.0
-
-
-def test_driven_disturbance_does_not_count_only_what_was_wanted(make_drive):
-    drive = make_drive(0.5 * np.arange(50))
-    assert np.ptp(drive.actions[:, 1]) > 0
-    assert steering_whiteness(drive) == 0.0
-
-
-def test_jerk_of_a_cubic_is_constant(make_drive):
-    time = 0.1 * np.arange(60)
-    assert jerk_rms(with_speed(make_drive, 5.0 + 0.5 * 0.7 * time**2)) == pytest.approx(0.7)
-
-
-def test_a_car_that_never_moves_has_no_jerk(make_drive):
-    assert jerk_rms(with_speed(make_drive, np.zeros(20))) == 0.0
-    assert jerk_rms(with_speed(make_drive, np.zeros(1))) == 0.0
+def test_drives_too_short_to_judge_count_as_smooth():
+    assert jerk_rms(np.ones(2), interval=INTERVAL) == 0.0
+    assert steering_whiteness(np.ones(1), interval=INTERVAL) == 0.0
+    assert steering_unrest(np.ones(2), interval=INTERVAL) == 0.0
