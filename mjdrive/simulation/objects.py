@@ -20,6 +20,7 @@ from mjdrive.vehicle.assembly import OBSTACLE_BITS
 
 TRUNK_SHARE = 0.12  # radius of a trunk over that of the outline of its tree [-]
 THINNEST_TRUNK = 0.05  # radius [m]
+THINNEST = 0.005  # thinner walls are made thicker by twice as much [m]
 TREE, BUILDING = "tree", "building"
 BUILDING_COLOR = 0  # number of its wall
 MATERIALS = {
@@ -93,6 +94,9 @@ def _convex_parts(area: shapely.Geometry) -> list[shapely.Polygon]:
 
 def _add_obstacle(spec: mujoco.MjSpec, name: str, part: shapely.Polygon, height: float) -> None:
     contype, conaffinity = OBSTACLE_BITS
+    if 2.0 * part.area < THINNEST * part.length:
+        # Of what is as thin as paper MuJoCo makes no body.
+        part = shapely.buffer(part, THINNEST, join_style="mitre").convex_hull
     outline = shapely.get_coordinates(shapely.orient_polygons(part))[:-1]
     prism = Shell()
     prism.box(outline, bottom=0.0, top=round(height, DECIMALS), floor=True)

@@ -12,7 +12,7 @@ from mjdrive.geometry import offset_polyline, project, stations, wrap_angle
 from mjdrive.town.links import SHORTEST_SECTION
 from mjdrive.town.opendrive.cross_section import CrossSections, LaneOfRoad, section_bounds
 from mjdrive.town.opendrive.lane_geometry import lane_outer_edges
-from mjdrive.town.opendrive.reference_line import reference_line
+from mjdrive.town.opendrive.reference_line import places_beside, reference_line
 from mjdrive.town.opendrive.road_map import LaneRecord, Road, RoadMap
 from mjdrive.town.opendrive.road_shapes import RoadMark
 from mjdrive.town.opendrive.vocabulary import LIGHT_TYPES, PAINTED_LINES, SIDEWALK_LANE_TYPES
@@ -42,18 +42,19 @@ def markings(road_map: RoadMap) -> tuple[Marking, ...]:
 
 def signs(road_map: RoadMap) -> tuple[Sign, ...]:
     """Find the traffic signs of a map: its signals that never change."""
+    standing = [
+        (road, signal)
+        for road in road_map.roads.values()
+        for signal in road.signals
+        if not signal.dynamic and signal.type not in LIGHT_TYPES
+    ]
+    points, headings = places_beside([(road, signal.s, signal.t) for road, signal in standing])
     found = []
-    for road in road_map.roads.values():
-        for signal in road.signals:
-            if signal.dynamic or signal.type in LIGHT_TYPES:
-                continue
-            point, heading = reference_line(road.pieces, np.array([signal.s]))
-            x, y = point[0] + signal.t * np.array([-np.sin(heading[0]), np.cos(heading[0])])
-            turned = np.pi if signal.orientation == "-" else 0.0
-            yaw = wrap_angle(float(heading[0]) + turned)
-            found.append(
-                Sign(signal.id, signal.type, signal.value, signal.unit, float(x), float(y), yaw)
-            )
+    for (_, signal), (x, y), heading in zip(
+        standing, points.tolist(), headings.tolist(), strict=True
+    ):
+        yaw = wrap_angle(heading + (np.pi if signal.orientation == "-" else 0.0))
+        found.append(Sign(signal.id, signal.type, signal.value, signal.unit, x, y, yaw))
     return tuple(found)
 
 

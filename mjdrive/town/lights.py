@@ -10,7 +10,7 @@ from mjdrive.datatypes import Lane, Signal, TrafficLight
 from mjdrive.errors import TownFormatError
 from mjdrive.geometry import headings
 from mjdrive.town.links import LaneKey, Links
-from mjdrive.town.opendrive.reference_line import reference_line
+from mjdrive.town.opendrive.reference_line import places_beside
 from mjdrive.town.opendrive.road_map import Road, RoadMap, SignalRecord
 from mjdrive.town.opendrive.vocabulary import LIGHT_TYPES
 from mjdrive.town.settings import LightTiming
@@ -59,6 +59,8 @@ def build_lights(
     _require_references(road_map)
     signals = light_signals(road_map)
     stopped = stopped_lanes(road_map, links, signals)
+    places = [(road, signal.s, signal.t) for road, signal in (signals[name] for name in stopped)]
+    poles = dict(zip(stopped, places_beside(places)[0], strict=True))
     lights = {}
     for turns in _turns(road_map, stopped).values():
         cycle = timing.turn * len(turns)
@@ -70,14 +72,13 @@ def build_lights(
         for index, turn in enumerate(turns):
             offset = (cycle - index * timing.turn) % cycle
             for signal_id in turn.signals:
-                road, signal = signals[signal_id]
                 keys = stopped[signal_id]
                 for key in keys:
                     light = _light(
                         signal_id if len(keys) == 1 else f"{signal_id}/{key.name}",
                         lanes[key.name],
                         junction=turn.junction,
-                        pole=_pole(road, signal),
+                        pole=poles[signal_id],
                         program=program,
                         offset=offset,
                         signal=signal_id,
@@ -160,11 +161,6 @@ def _by_junction(
         if signal in stopped:
             found[next(iter(stopped[signal].values()))].append(signal)
     return found
-
-
-def _pole(road: Road, signal: SignalRecord) -> np.ndarray:
-    point, heading = reference_line(road.pieces, np.array([signal.s]))
-    return point[0] + signal.t * np.array([-np.sin(heading[0]), np.cos(heading[0])])
 
 
 def _light(

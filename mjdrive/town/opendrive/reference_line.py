@@ -7,6 +7,7 @@ from jaxtyping import Float, Int
 
 from mjdrive.town.opendrive.curves import arc, curve
 from mjdrive.town.opendrive.piecewise import Piecewise
+from mjdrive.town.opendrive.road_map import Road
 from mjdrive.town.opendrive.road_shapes import Arc, Line, Piece
 
 
@@ -64,6 +65,27 @@ def reference_line(
         Points in the world frame, shape (N, 2) [m], and headings, shape (N,) [rad].
     """
     return ReferenceLines([pieces]).at(np.zeros(len(s), dtype=int), s)
+
+
+def places_beside(
+    places: Sequence[tuple[Road, float, float]],
+) -> tuple[Float[np.ndarray, "N 2"], Float[np.ndarray, " N"]]:
+    """Find places beside roads.
+
+    Args:
+        places: Road, s along it and t across it, positive to the left [m].
+
+    Returns:
+        Points in the world frame, shape (N, 2) [m], and headings of the roads there, shape (N,) [rad].
+    """
+    if not places:
+        return np.zeros((0, 2)), np.zeros(0)
+    roads, s, t = zip(*places, strict=True)
+    points, heading = ReferenceLines([road.pieces for road in roads]).at(
+        np.arange(len(roads)), np.array(s)
+    )
+    across = np.stack([-np.sin(heading), np.cos(heading)], axis=1)
+    return points + np.array(t)[:, None] * across, heading
 
 
 def curvature_of(piece: Piece) -> float:

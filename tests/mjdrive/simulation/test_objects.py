@@ -66,3 +66,12 @@ def test_outline_that_crosses_itself_can_be_built():
     model = scene(StaticObject("bow", "building", bow, 5.0))
     assert touched(model, 0.7, 2.0, 1.0)
     assert not touched(model, 2.0, 0.3, 1.0)
+
+
+@pytest.mark.parametrize("thickness", [1e-7, 4e-4, 0.02])
+def test_a_wall_stops_a_car_however_thin_the_map_draws_it(thickness):
+    turn = np.array([[np.cos(0.3), np.sin(0.3)], [-np.sin(0.3), np.cos(0.3)]])
+    outline = np.array([[0.0, 0.0], [8.0, 0.0], [8.0, thickness], [0.0, thickness]]) @ turn
+    model = scene(StaticObject("wall", "barrier", outline, 2.0))
+    assert touched(model, *(np.array([4.0, 0.5 * thickness]) @ turn), 1.0)
+    assert not touched(model, *(np.array([4.0, 1.0]) @ turn), 1.0)
