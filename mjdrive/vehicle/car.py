@@ -11,6 +11,7 @@ from mjdrive.datatypes import Action, VehicleState
 from mjdrive.geometry import world_from_vehicle, wrap_angle
 from mjdrive.vehicle.assembly import WHEELS
 from mjdrive.vehicle.parameters import VehicleParameters
+from mjdrive.vehicle.surroundings import Surroundings
 from mjdrive.vehicle.tyres import Tyres
 
 AIR_DENSITY = 1.2  # [kg/m3]
@@ -45,6 +46,7 @@ class Car:
         model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_SLEEP
         model.tree_sleep_policy[:] = mujoco.mjtSleepPolicy.mjSLEEP_NEVER
         self._tyres = Tyres(model, parameters)
+        self._surroundings = Surroundings(model)
         self._body = model.body("car").id
         self._spin_dof = np.array([model.joint(f"spin_{wheel}").dofadr[0] for wheel in WHEELS])
         self._spin_qpos = np.array([model.joint(f"spin_{wheel}").qposadr[0] for wheel in WHEELS])
@@ -102,6 +104,7 @@ class Car:
         data.xfrc_applied[self._body, :2] = drag * x_speed, drag * y_speed
         self._apply(np.maximum(travel, rolling * self.parameters.wheel_radius), brake)
         self._hold(travel + max(rolling.tolist()), brake)
+        self._surroundings.update(data)
 
     def state(self) -> VehicleState:
         """Read where the car is and how it moves, at the rear axle."""
@@ -142,6 +145,7 @@ class Car:
         self._holding = bool(written[5])
         self._model.eq_data[self._lock, 0] = written[6:]
         mujoco.mj_setState(self._model, self._data, physics, _STATE)
+        self._surroundings.update(self._data)
         mujoco.mj_forward(self._model, self._data)
         mujoco.mj_setState(
             self._model, self._data, physics, _STATE

@@ -1,0 +1,115 @@
+"""Contacts are looked for wherever there are any, and what the car does never depends on it."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from mjdrive.datatypes import Action
+from mjdrive.vehicle.assembly import OBSTACLE_BITS, car_on_road
+from mjdrive.vehicle.car import Car
+
+WALL_X = 40.0
+
+
+def ground_with_wall(*, always: bool = False, ball: bool = False) -> tuple[mujoco.MjData, Car]:
+    """The car before a wall across its way; `always` looks for contacts at every step."""
+    spec = car_on_road(timestep=0.005)
+    contype, conaffinity = OBSTACLE_BITS
+    spec.worldbody.add_geom(
+        name="building_0",
+        type=mujoco.mjtGeom.mjGEOM_BOX,
+        size=[0.5, 10.0, 2.0],
+        pos=[WALL_X, 0.0, 2.0],
+        contype=contype,
+        conaffinity=conaffinity,
+    )
+    if ball:
+        body = spec.worldbody.add_body(pos=[0.0, 20.0, 0.5])
+        body.add_freejoint()
+        body.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[0.5, 0, 0], contype=1, conaffinity=2)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    car = Car(model, data)
+    if always:
+        car._surroundings._is_alone = False
+    car.place(0.0, 0.0, 0.0)
+    return data, car
+
+
+def looks(data: mujoco.MjData) -> bool:
+    return bool(data.model.body_contype[0])
+
+
+def drive(data: mujoco.MjData, car: Car, action: Action, duration: float) -> None:
+    car.command(action)
+    for _ in range(round(duration / 0.02)):
+        car.update()
+        mujoco.mj_step(data.model, data, 4)
+
+
+@pytest.mark.parametrize("steering", [0.0, 0.15])
+def test_crash_is_the_same_bit_by_bit_as_if_contacts_were_always_looked_for(steering):
+    states = []
+    for always in (False, True):
+        data, car = ground_with_wall(always=always)
+        car.place(0.0, 0.0, 0.0, speed=12.0)
+        drive(data, car, Action(0.3, steering), 6.0)
+        states.append(np.concatenate([data.qpos, data.qvel]))
+    assert np.array_equal(*states)
+    assert states[0][0] < WALL_X - 3.0  # it was a crash
+
+
+def test_far_from_everything_nothing_is_looked_for():
+    data, car = ground_with_wall()
+    car.update()
+    assert not looks(data)
+    assert data.ncon == 4  # the tyres stand on the road all the same
+
+
+@pytest.mark.parametrize("yaw", [0.0, 1.0, np.pi / 2, 2.5, -2.0])
+def test_near_a_wall_contacts_are_looked_for(yaw):
+    data, car = ground_with_wall()
+    nearest = float((car.footprint() @ [np.cos(yaw), -np.sin(yaw)]).max())
+    car.place(WALL_X - 0.5 - nearest - 0.1, 0.0, yaw)
+    assert looks(data)
+    car.place(WALL_X - 0.5 - nearest - 2.0, 0.0, yaw)
+    assert not looks(data)
+
+
+def test_fast_car_looks_further_ahead():
+    data, car = ground_with_wall()
+    nose = float(car.footprint()[:, 0].max())
+    for speed, expected in ((0.0, False), (20.0, True)):
+        car.place(WALL_X - 0.5 - nose - 1.5, 0.0, 0.0, speed=speed)
+        assert looks(data) is expected
+
+
+def test_roof_of_a_car_that_rolls_over_meets_the_road():
+    data, car = ground_with_wall()
+    data.qpos[2] = 1.5
+    data.qpos[3:7] = 0.0, 1.0, 0.0, 0.0  # upside down
+    drive(data, car, Action(0.0, 0.0), 2.0)
+    assert looks(data)
+    assert data.qpos[2] > 1.0  # it lies on its roof instead of falling through
+
+
+def test_with_other_bodies_that_move_contacts_are_always_looked_for():
+    data, car = ground_with_wall(ball=True)
+    drive(data, car, Action(0.0, 0.0), 1.0)
+    assert looks(data)
+    assert data.qpos[-5] == pytest.approx(0.5, abs=0.05)  # the ball lies on the road
+
+
+def test_restored_car_meets_the_wall_it_stood_at():
+    data, car = ground_with_wall()
+    nose = float(car.footprint()[:, 0].max())
+    car.place(WALL_X - 0.5 - nose - 0.05, 0.0, 0.0, speed=5.0)
+    saved = car.save()
+    drive(data, car, Action(0.0, 0.0), 1.0)
+    crashed = data.qpos.copy()
+    car.place(0.0, 0.0, 0.0)
+    assert not looks(data)
+    car.restore(saved)
+    assert looks(data)
+    drive(data, car, Action(0.0, 0.0), 1.0)
+    assert np.array_equal(data.qpos, crashed)
