@@ -11,6 +11,7 @@ from mjdrive.datatypes import Move, Route, Town
 from mjdrive.errors import RouteError
 from mjdrive.town import routing
 from mjdrive.town.lane_graph import lane_length
+from mjdrive.town.route_line import Chain, lay
 
 _CANDIDATES = 48
 """Routes drawn for each that is kept."""
@@ -72,7 +73,7 @@ def _routes(
     for number in range(num_routes):
         candidates = sorted(
             _candidates(town, length, rng),
-            key=lambda route: _worth(town, route.lanes, driven, moves),
+            key=lambda chain: _worth(town, chain.lanes, driven, moves),
             reverse=True,
         )
         best = _first_given_again(town, candidates)
@@ -85,7 +86,7 @@ def _routes(
     return routes
 
 
-def _candidates(town: Town, length: float, rng: np.random.Generator) -> list[Route]:
+def _candidates(town: Town, length: float, rng: np.random.Generator) -> list[Chain]:
     """Draw random routes from anywhere in the town."""
     found = []
     for _ in range(_CANDIDATES):
@@ -93,7 +94,7 @@ def _candidates(town: Town, length: float, rng: np.random.Generator) -> list[Rou
         wanted = length * float(rng.uniform(5 / 6, 7 / 6))
         try:
             found.append(
-                routing.random_route(town, lane=lane, station=station, length=wanted, rng=rng)
+                routing.random_chain(town, lane=lane, station=station, length=wanted, rng=rng)
             )
         except RouteError:
             continue  # every way from there comes to a dead end before the route is long enough
@@ -101,11 +102,12 @@ def _candidates(town: Town, length: float, rng: np.random.Generator) -> list[Rou
 
 
 def _first_given_again(
-    town: Town, candidates: Sequence[Route]
+    town: Town, candidates: Sequence[Chain]
 ) -> tuple[Route, Float[np.ndarray, "K 2"]] | None:
     """Find the first route that waypoints give again, with few waypoints if any can, and these waypoints."""
     for shares in (_MIDDLE, _THIRDS):
-        for route in candidates:
+        for lanes, start, end in candidates:
+            route = lay(town, lanes, start=start, end=end)
             waypoints = _waypoints(town, route, shares)
             if _is_given_again(town, route, waypoints):
                 return route, waypoints

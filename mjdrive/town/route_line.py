@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,6 +12,20 @@ from mjdrive.geometry import curvatures, headings, resample, stations
 
 POINT_SPACING = 1.0
 """Distance between the points of a route [m]."""
+
+
+class Chain(NamedTuple):
+    """The lanes of a route.
+
+    Attributes:
+        lanes: Names, each a successor of the one before.
+        start: Where the route begins on the first lane [m].
+        end: Where it ends on the last lane [m].
+    """
+
+    lanes: tuple[str, ...]
+    start: float
+    end: float
 
 
 def lay(town: Town, chain: Sequence[str], *, start: float, end: float) -> Route:
