@@ -100,8 +100,13 @@ class MpcExpert:
         )
         self._plan: _Plan | None
         self._last: Action | None
-        self._gap: Float[np.ndarray, "2"]
+        self._gap: Float[np.ndarray, " 2"]
         self.reset(0)
+
+    @property
+    def solver_name(self) -> str:
+        """Name of the solver in use: the wanted one, or its stand-in."""
+        return self._solver.name
 
     @property
     def solves(self) -> SolveCounts:
