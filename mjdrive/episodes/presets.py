@@ -145,7 +145,9 @@ def with_throttle_noise(config: CollectConfig, scale: float) -> CollectConfig:
     )
     if scale == 0:
         return config
-    others = config.disturbance or DisturbanceConfig(steering_rate_per_min=0, stop_rate_per_min=0)
+    others = config.disturbance or DisturbanceConfig(
+        steering_rate_per_min=0.0, stop_rate_per_min=0.0
+    )
     disturbance = dataclasses.replace(
         others,
         throttle_rate_per_min=_THROTTLE_RATE_PER_MIN,

@@ -48,9 +48,9 @@ class ContactWatch:
         return found
 
     def obstacles(self) -> list[str]:
-        """Names of the things, kerbs left out, that the car touches now."""
+        """Names of the things, road and kerbs left out, that the car touches now."""
         return sorted(
             name
             for kind, name in self.hits()
-            if kind is InfractionKind.COLLISION and name != "kerb"
+            if kind is InfractionKind.COLLISION and name not in ("kerb", "road")
         )

@@ -52,3 +52,27 @@ def test_an_expert_that_brakes_harder_is_left_alone():
 def test_impossible_amplitude_is_refused():
     with pytest.raises(ConfigError, match="steering_amplitude is 2"):
         DisturbanceConfig(steering_amplitude=2.0)
+
+
+def test_throttle_pulses_push_both_ways_at_their_rate():
+    config = DisturbanceConfig(
+        steering_rate_per_min=0.0,
+        stop_rate_per_min=0.0,
+        throttle_rate_per_min=15.0,
+        throttle_amplitude=0.5,
+    )
+    driven = drive(config, num_steps=60_000)
+    assert not driven[:, 1].any()
+    pushed = driven[:, 0] - CRUISE.acceleration
+    assert 0.3 < pushed.max() <= 0.5 + 1e-9
+    assert -0.5 - 1e-9 <= pushed.min() < -0.3
+    starts = np.count_nonzero((pushed[1:] != 0) & (pushed[:-1] == 0))
+    quiet_min = np.count_nonzero(pushed == 0) * 0.1 / 60
+    assert starts / quiet_min == pytest.approx(15.0, rel=0.15)
+
+
+def test_throttle_pulses_leave_the_other_disturbances_as_they_are():
+    without = drive(DisturbanceConfig())
+    pushed = drive(DisturbanceConfig(throttle_rate_per_min=15.0))
+    np.testing.assert_array_equal(pushed[:, 1], without[:, 1])
+    assert not np.array_equal(pushed[:, 0], without[:, 0])

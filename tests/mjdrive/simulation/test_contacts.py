@@ -20,12 +20,16 @@ SCENE = """
 """
 
 
-def hits(part: str, *, y: float, z: float) -> set[tuple[InfractionKind, str]]:
+def watch(part: str, *, y: float, z: float) -> ContactWatch:
     model = mujoco.MjModel.from_xml_string(SCENE.format(part=part))
     data = mujoco.MjData(model)
     data.qpos[:3] = 0.0, y, z
     mujoco.mj_forward(model, data)
-    return ContactWatch(model, data).hits()
+    return ContactWatch(model, data)
+
+
+def hits(part: str, *, y: float, z: float) -> set[tuple[InfractionKind, str]]:
+    return watch(part, y=y, z=z).hits()
 
 
 @pytest.mark.parametrize(
@@ -44,3 +48,19 @@ def hits(part: str, *, y: float, z: float) -> set[tuple[InfractionKind, str]]:
 )
 def test_what_is_touched_is_named_by_what_touches_it(part, y, z, expected):
     assert hits(part, y=y, z=z) == expected
+
+
+@pytest.mark.parametrize(
+    ("part", "y", "z", "expected"),
+    [
+        ("hull_low", 7.6, 2.0, ["building_2"]),
+        ("hull_low", 9.0, 2.0, ["building_2"]),  # right in the middle of it
+        ("tyre_fl", 7.6, 2.0, ["building_2"]),
+        ("hull_low", 3.0, 0.65, []),
+        ("hull_low", 0.0, 0.45, []),
+    ],
+)
+def test_obstacles_are_what_a_car_cannot_stand_in(
+    part: str, y: float, z: float, expected: list[str]
+) -> None:
+    assert watch(part, y=y, z=z).obstacles() == expected

@@ -112,6 +112,17 @@ def test_unknown_lane_and_station_off_the_lane_are_refused(driven):
         driven.reset(lane=longest_lane(driven), station=1e4, seed=0)
 
 
+def test_start_inside_something_solid_is_refused_by_its_name(simulation):
+    for kind in ("building", "pole"):
+        geoms = [simulation.model.geom(index) for index in range(simulation.model.ngeom)]
+        solid = next(it for it in geoms if it.name.startswith(kind) and it.contype)
+        x, y, _ = simulation.data.geom(solid.name).xpos
+        with pytest.raises(
+            RouteError, match=rf"cannot start at \(.*\) in town02: {kind}.*stands there"
+        ):
+            simulation.place(x=float(x), y=float(y), yaw=0.0, seed=0)
+
+
 def test_intervals_that_do_not_divide_are_refused():
     with pytest.raises(ConfigError, match=r"car_update_interval is 0.03 s"):
         SimulationConfig(car_update_interval=0.03)
