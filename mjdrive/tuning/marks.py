@@ -52,8 +52,9 @@ def judge(traces: Sequence[Trace], config: TuneConfig) -> Marks:
     on_route = np.concatenate([trace.offsets for trace in traces[:-1]])
     duration = interval * len(offsets)
     slowness = duration * REFERENCE_SPEED / sum(trace.length for trace in traces) - 1.0
-    whiteness = _rms([comfort.steering_whiteness(trace.episode) for trace in traces])
-    jerk = _rms([comfort.jerk_rms(trace.episode) for trace in traces])
+    drives = [comfort.comfort(trace.episode, interval=interval) for trace in traces]
+    whiteness = _rms([drive.steering_whiteness for drive in drives])
+    jerk = _rms([drive.jerk_rms for drive in drives])
     offset = float(np.sqrt(np.mean(offsets**2)))
     mishaps = sum(map(_mishaps, traces))
     cost = (
