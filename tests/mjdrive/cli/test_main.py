@@ -42,6 +42,31 @@ MISTAKES = {
         ["collect", "--town", "town01", "--preset", "quik"],
         "preset 'quik'.*Did you mean 'quick'",
     ),
+    "negative noise": (["collect", "--town", "town02", "--noise", "-1"], "noise is -1; expected 0"),
+    "unknown route": (
+        ["collect", "--town", "town02", "--routes", "nope"],
+        "route 'nope'.*Known: route0",
+    ),
+    "number of no route": (
+        ["collect", "--town", "town02", "--routes", "4-9"],
+        "no routes '4-9'; expected numbers from 0 to 5",
+    ),
+    "walk back": (
+        ["collect", "--town", "town02", "--random-walk", "-1"],
+        "random walk is -1 km; expected more than 0",
+    ),
+    "walk along routes": (
+        ["collect", "--town", "town02", "--random-walk", "1", "--routes", "0"],
+        "follows no routes",
+    ),
+    "unknown expert": (
+        ["collect", "--town", "town02", "--expert", "mcp"],
+        "expert 'mcp'.*Did you mean 'mpc'",
+    ),
+    "both to replace and to add": (
+        ["collect", "--town", "town02", "--overwrite", "--mix"],
+        "expected one of them",
+    ),
     "unknown train preset": (
         ["train", "ibc", "--preset", "papr"],
         "preset 'papr'.*Did you mean 'paper'",
