@@ -126,7 +126,7 @@ class RammingGround:
     def _approach(self, obstacle: str, heading: float) -> bool:
         """Place the car before an obstacle; tell whether it stands on the road alone."""
         geom = self._model.geom(obstacle).id
-        target = self._data.geom_xpos[geom, :2]
+        target = self._model.geom_pos[geom, :2]  # all that stands belongs to the world
         parameters = self._car.parameters
         nose = parameters.length - parameters.rear_overhang
         ahead = np.array([math.cos(heading), math.sin(heading)])
@@ -139,8 +139,9 @@ class RammingGround:
     def _extent(self, geom: int, ahead: np.ndarray) -> float:
         """From the middle of a geom to its edge in a direction on the ground [m]."""
         box = self._model.geom_aabb[geom]
-        rotation = self._data.geom_xmat[geom].reshape(3, 3)
-        return float(np.abs(ahead @ rotation[:2]) @ box[3:])
+        rotation = np.empty(9)
+        mujoco.mju_quat2Mat(rotation, self._model.geom_quat[geom])
+        return float(np.abs(ahead @ rotation.reshape(3, 3)[:2]) @ box[3:])
 
     def _drive_into(self, obstacle: str) -> Ram | None:
         geom, data = self._model.geom(obstacle).id, self._data

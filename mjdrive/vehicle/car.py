@@ -41,10 +41,7 @@ class Car:
         self.tyre_geoms = frozenset(model.geom(f"tyre_{wheel}").id for wheel in WHEELS)
         self._model = model
         self._data = data
-        # What may sleep need not be placed anew at every step; so a town costs little more than a plane. Nothing that
-        # moves does sleep, and its motion is the same bit by bit.
-        model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_SLEEP
-        model.tree_sleep_policy[:] = mujoco.mjtSleepPolicy.mjSLEEP_NEVER
+        _leave_static_geoms_in_place(model, data)
         self._tyres = Tyres(model, parameters)
         self._surroundings = Surroundings(model)
         self._body = model.body("car").id
@@ -212,3 +209,17 @@ class Car:
             + self.parameters.mass * downhill * self.parameters.wheel_radius
             + HOLD_RESERVE
         )
+
+
+def _leave_static_geoms_in_place(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Let a town cost little more than a plane: what may sleep is not placed anew at every step.
+
+    Nothing that moves does sleep, and it moves the same bit by bit.
+    """
+    state = np.empty(mujoco.mj_stateSize(model, _STATE))
+    mujoco.mj_getState(model, data, state, _STATE)
+    model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_SLEEP
+    model.tree_sleep_policy[:] = mujoco.mjtSleepPolicy.mjSLEEP_NEVER
+    # Data that was made before must be told to place static geoms once.
+    mujoco.mj_resetData(model, data)
+    mujoco.mj_setState(model, data, state, _STATE)

@@ -11,8 +11,8 @@ from mjdrive.vehicle.car import Car
 WALL_X = 40.0
 
 
-def ground_with_wall(*, always: bool = False, ball: bool = False) -> tuple[mujoco.MjData, Car]:
-    """The car before a wall across its way; `always` looks for contacts at every step."""
+def ground_spec() -> mujoco.MjSpec:
+    """The car before a wall across its way."""
     spec = car_on_road(timestep=0.005)
     contype, conaffinity = OBSTACLE_BITS
     spec.worldbody.add_geom(
@@ -23,6 +23,12 @@ def ground_with_wall(*, always: bool = False, ball: bool = False) -> tuple[mujoc
         contype=contype,
         conaffinity=conaffinity,
     )
+    return spec
+
+
+def ground_with_wall(*, always: bool = False, ball: bool = False) -> tuple[mujoco.MjData, Car]:
+    """That scene, the car at rest; `always` looks for contacts at every step."""
+    spec = ground_spec()
     if ball:
         body = spec.worldbody.add_body(pos=[0.0, 20.0, 0.5])
         body.add_freejoint()
@@ -113,3 +119,28 @@ def test_restored_car_meets_the_wall_it_stood_at():
     assert looks(data)
     drive(data, car, Action(0.0, 0.0), 1.0)
     assert np.array_equal(data.qpos, crashed)
+
+
+def test_walls_stand_where_they_belong_in_a_simulation_that_is_restored_first():
+    data, car = ground_with_wall()
+    nose = float(car.footprint()[:, 0].max())
+    car.place(WALL_X - 0.5 - nose - 0.05, 0.0, 0.0, speed=5.0)
+    saved = car.save()
+    model = ground_spec().compile()
+    fresh = mujoco.MjData(model)
+    again = Car(model, fresh)
+    again.restore(saved)  # without having been placed
+    wall = model.geom("building_0").id
+    assert fresh.geom_xpos[wall] == pytest.approx([WALL_X, 0.0, 2.0])
+    drive(data, car, Action(0.0, 0.0), 1.0)
+    drive(fresh, again, Action(0.0, 0.0), 1.0)
+    assert np.array_equal(fresh.qpos, data.qpos)
+
+
+def test_state_that_data_had_is_kept():
+    model = car_on_road(timestep=0.005).compile()
+    data = mujoco.MjData(model)
+    data.qpos[:3] = 5.0, 6.0, 0.0
+    data.time = 3.0
+    car = Car(model, data)
+    assert (car.state().x, car.state().y, data.time) == (5.0, 6.0, 3.0)
