@@ -200,7 +200,7 @@ def _with_breaks(s: Float[np.ndarray, " N"], breaks: Sequence[float]) -> Float[n
     if not len(inside):
         return s
     nearest = np.abs(s[:, None] - inside).min(axis=0)
-    return np.union1d(s, inside[nearest > 1e-6])
+    return np.sort(np.concatenate([s, inside[nearest > 1e-6]]))
 
 
 def _breaks(road: Road, section_index: int, lane_id: int) -> list[float]:

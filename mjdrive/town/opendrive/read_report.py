@@ -119,17 +119,19 @@ def _without_meaning(types: Mapping[str, Counter[str]]) -> Counter[str]:
 def _left_over(root: Element, fields: XmlFields) -> Counter[str]:
     """Count the elements and attributes that nothing was taken from."""
     found: Counter[str] = Counter()
+    known = {tag: asked | _NAMES for tag, asked in fields.asked.items()}
     waiting = [(child, child.tag) for child in root.iterchildren("*")]
     while waiting:
         element, path = waiting.pop()
         if element not in fields.used:
             found[path] += 1
             continue
-        asked = fields.asked[element.tag] | _NAMES
-        for name, value in element.attrib.items():
+        asked = known.get(element.tag, _NAMES)
+        for name, value in element.items():
             if name not in asked and _says_something(value):
                 found[f"{path}@{name}"] += 1
-        waiting.extend((child, f"{path}/{child.tag}") for child in element.iterchildren("*"))
+        if len(element):
+            waiting += [(child, f"{path}/{child.tag}") for child in element.iterchildren("*")]
     return found
 
 
