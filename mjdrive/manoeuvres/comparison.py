@@ -53,10 +53,10 @@ class Behaviour:
             limit = circle.limit / GRAVITY if self.slides else math.nan
             found[f"{speed_kmh} km/h, limit"] = ("g", limit)
         fast = self.circles[80]
-        found["80 km/h, understeer gradient"] = ("deg/g", to_deg_per_g * fast.understeer_gradient)
-        found["80 km/h, body-slip gradient"] = ("deg/g", to_deg_per_g * fast.body_slip_gradient)
+        found["80 km/h, understeer"] = ("deg/g", to_deg_per_g * fast.understeer_gradient)
+        found["80 km/h, body slip"] = ("deg/g", to_deg_per_g * fast.body_slip_gradient)
         roll = to_deg_per_g * fast.roll_gradient if self.slides else math.nan
-        found["80 km/h, roll gradient"] = ("deg/g", roll)
+        found["80 km/h, roll"] = ("deg/g", roll)
         found["80 km/h, yaw-rate gain"] = ("1/s", self.step.gain)
         found["80 km/h, time to 90 %"] = ("s", self.step.rise_time)
         found["80 km/h, overshoot"] = ("%", self.step.overshoot)

@@ -32,7 +32,7 @@ def draw(comparisons: Sequence[Comparison], path: Path) -> None:
         path: PNG file to write.
     """
     with matplotlib.style.context(["default", STYLE]):
-        figure = Figure(figsize=(7.4, 2.7 * len(comparisons)), layout="constrained")
+        figure = Figure(figsize=(6.8, 2.5 * len(comparisons)), layout="constrained")
         rows = figure.subplots(len(comparisons), 2, squeeze=False)
         for (left, right), comparison in zip(rows, comparisons, strict=True):
             for name, behaviour in comparison.behaviours.items():
@@ -46,7 +46,7 @@ def draw(comparisons: Sequence[Comparison], path: Path) -> None:
                 xlim=(0.0, MOST_SHOWN),
                 ylim=(0.0, None),
             )
-            left.legend(frameon=False, fontsize=8)
+            left.legend(frameon=False, fontsize=7.5)
             right.set(
                 title=f"{comparison.title}: step steer",
                 xlabel="time since half of the steering angle [s]",

@@ -92,7 +92,7 @@ def test_gyroscopic_moment_of_the_wheels_is_what_makes_our_bmw_slower(our_step):
 def test_figures_name_what_a_model_has_no_answer_for(behaviour):
     figures = behaviour.figures()
     assert math.isnan(figures["80 km/h, limit"][1])
-    assert math.isnan(figures["80 km/h, roll gradient"][1])
+    assert math.isnan(figures["80 km/h, roll"][1])
     unit, angle = figures["80 km/h, steer at 4 m/s2"]
     speed = 80 / 3.6
     expected = 4.0 / (speed * behaviour.step.single_track.yaw_rate_gain(speed))
