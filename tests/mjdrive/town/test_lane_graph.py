@@ -91,3 +91,13 @@ def test_round_trips_are_found_by_a_slower_way_too(ways: list[tuple[int, int]]) 
     assert {frozenset(part) for part in round_trips(town)} == expected
     endless = {str(a) for a in range(8) if any(reach[a, b] and reach[b, b] for b in range(8))}
     assert {name for name, length in onward(town).items() if math.isinf(length)} == endless
+
+
+def test_legs_are_the_same_in_any_order_of_asking(ladder: Town) -> None:
+    lanes = list(ladder.lanes)
+    ends = [Place(name, 1.0) for name in lanes]
+    graph, other = LaneGraph(ladder), LaneGraph(ladder)
+    for start in lanes[:6]:
+        there = [graph.leg(Place(start, 2.0), end) for end in ends]
+        back = [other.leg(Place(start, 2.0), end) for end in reversed(ends)]
+        assert there == back[::-1]

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 import shapely
 
-from mjdrive.datatypes import Sign, StaticObject, Town
+from mjdrive.datatypes import Lane, Sign, StaticObject, Town
+from mjdrive.town import surface
 from mjdrive.town.check import FindingKind, Severity, check
 from mjdrive.town.obstructions import obstructions
 from mjdrive.town.scenery import standing
@@ -89,3 +90,25 @@ def test_poles_and_signs_on_lanes_are_found_once_each(ladder: Town) -> None:
     )
     found = [(found.what, found.thing, found.lanes[0]) for found in obstructions(town)]
     assert found == [("light", "gantry", name), ("sign", "limit", name)]
+
+
+def test_lanes_that_nothing_stands_near_are_not_outlined(
+    town01: Town, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    outlined = []
+
+    def counted(lane: Lane) -> shapely.Polygon:
+        outlined.append(lane.id)
+        return surface.outline(lane)
+
+    monkeypatch.setattr("mjdrive.town.obstructions.outline", counted)
+    assert list(obstructions(replace(town01, signs=(), objects=()))) == []
+    near = {
+        lane.id
+        for lane in town01.lanes.values()
+        for light in town01.lights.values()
+        if shapely.distance(shapely.LineString(lane.centerline), shapely.Point(light.pole)) < 5.0
+    }
+    assert len(outlined) == len(set(outlined))
+    assert set(outlined) <= near
+    assert 0 < len(outlined) < len(town01.lanes)
