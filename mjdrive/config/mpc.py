@@ -22,6 +22,9 @@ class MpcConfig:
         jerk_tolerance: Of the rate of the acceleration [m/s3].
         steering_rate_tolerance: Of the rate of the steering angle [rad/s].
         steering_jolt_tolerance: Of the rate of that rate [rad/s2].
+        final_offset_tolerance: Of the distance from the route at the end of the plan [m].
+        final_heading_tolerance: Of the heading against the route there [rad].
+        final_curvature_tolerance: Of the curvature of the car's path against that of the route there [1/m].
         lane_tolerance: Of the body beyond the edge of the lane [m].
         grip_tolerance: Of lateral acceleration beyond its limit [m/s2].
         lane_margin: Space to keep between the body and the edge of the lane on a straight [m].
@@ -39,14 +42,17 @@ class MpcConfig:
     """
 
     horizon: float = 2.0
-    offset_tolerance: float = 0.2
-    heading_tolerance: float = 0.3
+    offset_tolerance: float = 0.3
+    heading_tolerance: float = 0.08
     station_tolerance: float = 0.2
     speed_tolerance: float = 0.1
     acceleration_tolerance: float = 0.6
     jerk_tolerance: float = 0.6
     steering_rate_tolerance: float = 0.4
     steering_jolt_tolerance: float = 1.0
+    final_offset_tolerance: float = 0.1
+    final_heading_tolerance: float = 0.02
+    final_curvature_tolerance: float = 0.05
     lane_tolerance: float = 0.05
     grip_tolerance: float = 0.3
     lane_margin: float = 0.2
@@ -63,7 +69,14 @@ class MpcConfig:
     late_after: float = 0.05
 
     def __post_init__(self) -> None:
-        for name in ("horizon", "lateral_acceleration", "acceleration", "braking", "max_jerk"):
+        for name in (
+            "horizon",
+            "lateral_acceleration",
+            "acceleration",
+            "braking",
+            "max_jerk",
+            "late_after",
+        ):
             value = getattr(self, name)
             require(value > 0, f"{name} is {value}; expected a positive number.")
         for name in self.__slots__:

@@ -252,15 +252,12 @@ class MpcExpert:
         return self._problem.along(start, goal)
 
     def _action(self, start: BicycleState, following: BicycleState) -> Action:
-        """Pedal and wheel that bring the car from one state to the next, against the lag of its pedals."""
-        speed = 0.5 * (start.speed + following.speed)
-        wanted = following.acceleration
-        lag = self._drivetrain.lag(wanted, speed)
-        reached = 1.0 - math.exp(-self._interval / lag) if lag > 0 else 1.0
-        ahead = start.acceleration + (wanted - start.acceleration) / reached
-        return Action(
-            acceleration=self._drivetrain.pedal(ahead, speed),
-            steering=float(
-                np.clip(following.steering_angle / self._car.max_steering_angle, -1.0, 1.0)
-            ),
+        """Pedal and wheel that bring the car from one state to the next."""
+        pedal = self._drivetrain.pedal_towards(
+            following.acceleration,
+            before=start.acceleration,
+            speed=0.5 * (start.speed + following.speed),
+            interval=self._interval,
         )
+        steering = following.steering_angle / self._car.max_steering_angle
+        return Action(acceleration=pedal, steering=float(np.clip(steering, -1.0, 1.0)))

@@ -88,6 +88,7 @@ class MpcProblem:
                 self._soften(here, slack, reference[3, k - 1])
             self._weigh(BicycleState(*ca.vertsplit(following)), drive, reference[:2, k])
             state = following
+        self._weigh_end(BicycleState(*ca.vertsplit(state)), reference[2, steps - 1])
         residual = ca.vertcat(*self._residuals)
         self.symbols = {
             "x": ca.vertcat(*self._variables),
@@ -143,6 +144,16 @@ class MpcProblem:
             state.steering_rate / config.steering_rate_tolerance,
             drive.jerk / config.jerk_tolerance,
             drive.steering_jolt / config.steering_jolt_tolerance,
+        ]
+
+    def _weigh_end(self, state: BicycleState, curvature: ca.SX) -> None:
+        """Price of what a plan leaves behind: a slow car sees only metres ahead, and must not end across the road."""
+        config = self._config
+        turn = self._bicycle.path_curvature(state.steering_angle, state.speed, SYMBOLS)
+        self._residuals += [
+            state.offset / config.final_offset_tolerance,
+            state.heading_error / config.final_heading_tolerance,
+            (turn - curvature) / config.final_curvature_tolerance,
         ]
 
     def parameters(self, start: BicycleState, reference: Reference) -> Float[np.ndarray, " P"]:

@@ -1,5 +1,6 @@
 """From the acceleration that a driver wants to the pedals of the car, and back."""
 
+import math
 from typing import NamedTuple
 
 from mjdrive.vehicle.parameters import VehicleParameters
@@ -90,3 +91,21 @@ class Drivetrain(NamedTuple):
     def lag(self, acceleration: float, speed: float) -> float:
         """Time constant of the pedal that an acceleration [m/s2] at a speed [m/s] asks for [s]."""
         return self.throttle_lag if acceleration + self.resistance(speed) > 0 else self.brake_lag
+
+    def pedal_towards(
+        self, wanted: float, *, before: float, speed: float, interval: float
+    ) -> float:
+        """Pedal that brings the car from one acceleration to another within an interval, against the lag of the pedal.
+
+        Args:
+            wanted: Acceleration at the end of the interval [m/s2].
+            before: Acceleration at its beginning [m/s2].
+            speed: Forward speed [m/s].
+            interval: Time for which the pedal is held [s].
+
+        Returns:
+            Throttle if positive, brake if negative, in [-1, 1] [-].
+        """
+        lag = self.lag(wanted, speed)
+        reached = 1.0 - math.exp(-interval / lag) if lag > 0 else 1.0
+        return self.pedal(before + (wanted - before) / reached, speed)

@@ -8,6 +8,7 @@ import typing
 
 import pytest
 
+import mjdrive.config.mpc
 import mjdrive.config.settings
 import mjdrive.datatypes
 import mjdrive.datatypes.driving
@@ -16,7 +17,7 @@ import models.config
 
 UNITS = {
     "-", "m", "m/s", "m/s2", "m/s^2", "rad", "rad/s", "s", "px", "px/m", "kg", "N", "N/rad", "Hz", "nats",
-    "1/m", "1/min", "1/s", "1/(m/s)", "1/(m/s2)", "1/rad", "1/(rad s)", "s/rad", "%",
+    "1/m", "1/min", "1/s", "m/s3", "rad/s2", "1/(m/s)", "1/(m/s2)", "1/rad", "1/(rad s)", "s/rad", "%",
 }  # fmt: skip
 DIMENSIONLESS_COUNTS = {
     "seed",
@@ -40,6 +41,7 @@ def numeric_dataclasses() -> list[type]:
     modules = (
         mjdrive.datatypes.town,
         mjdrive.datatypes.driving,
+        mjdrive.config.mpc,
         mjdrive.config.settings,
         models.config,
     )
@@ -96,7 +98,7 @@ def test_every_number_has_a_unit(kind: type) -> None:
 
 def test_the_walk_finds_numbers() -> None:
     found = {kind.__name__ for kind in numeric_dataclasses()}
-    assert {"VehicleState", "Episode", "BevConfig", "PidConfig", "OptimiserConfig"} <= found
+    assert {"VehicleState", "Episode", "BevConfig", "MpcConfig", "OptimiserConfig"} <= found
     assert is_number(float)
     assert is_number(tuple[int, int])
     assert is_number(float | None)

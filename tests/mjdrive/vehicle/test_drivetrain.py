@@ -36,3 +36,12 @@ def test_car_takes_the_acceleration_that_was_wanted(wanted: float, ground):
         ground.drive(DRIVETRAIN.pedal(wanted, before), 0.0, 0.02)
         reached.append((ground.car.state().speed - before) / 0.02)
     assert np.mean(reached[30:]) == pytest.approx(wanted, abs=0.12)
+
+
+@pytest.mark.parametrize(("before", "wanted"), [(0.0, 1.0), (1.0, 0.4), (-0.5, -1.5)])
+def test_pedal_beats_its_own_lag(before: float, wanted: float):
+    interval, speed = 0.1, 5.0
+    pedal = DRIVETRAIN.pedal_towards(wanted, before=before, speed=speed, interval=interval)
+    target = DRIVETRAIN.acceleration(pedal, speed)
+    left = np.exp(-interval / DRIVETRAIN.lag(wanted, speed))
+    assert target + (before - target) * left == pytest.approx(wanted)
