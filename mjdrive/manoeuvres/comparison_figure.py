@@ -50,7 +50,7 @@ def draw(comparisons: Sequence[Comparison], path: Path) -> None:
             right.set(
                 title=f"{comparison.title}: step steer",
                 xlabel="time since half of the steering angle [s]",
-                ylabel="yaw rate / its steady value [-]",
+                ylabel="yaw rate / steady one [-]",
                 xlim=(-0.2, 1.5),
             )
         save(figure, path)

@@ -190,7 +190,7 @@ DIAGRAMS: Mapping[str, tuple[Callable[[Handling, Figure], None], tuple[float, fl
     "braking": (_draw_braking, (5.2, 3.4)),
     "handling": (_draw_handling_diagram, (5.6, 4.2)),
     "step_steer": (_draw_step, (5.6, 6.2)),
-    "turning_circle": (_draw_turning_circle, (4.6, 5.2)),
+    "turning_circle": (_draw_turning_circle, (4.8, 6.0)),
     "standstill": (_draw_standstill, (5.2, 3.4)),
 }
 """What draws each diagram, and its size [inch]."""

@@ -1,0 +1,63 @@
+"""Write the tables of docs/car.md from what `mjdrive car test` and `mjdrive car compare` have measured.
+
+Before: `mjdrive car test --plot --out docs/car` and `mjdrive car compare --out docs/car_compared`.
+"""
+
+import json
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+from mjdrive.cli.car_tables import limits, number
+from mjdrive.manoeuvres.bars import Bar
+
+ROOT = Path(__file__).resolve().parents[1]
+CARD = ROOT / "docs" / "car.md"
+REPORT = ROOT / "docs" / "car" / "report.json"
+COMPARISON = ROOT / "docs" / "car_compared" / "comparison.json"
+
+
+def bars_of(report: dict[str, Any]) -> list[Bar]:
+    """The bars that a report holds."""
+    names = ("manoeuvre", "figure", "measured", "unit", "least", "most", "reason")
+    return [Bar(**{name: row[name] for name in names}) for row in report["bars"]]
+
+
+def measured_table() -> str:
+    """Every figure of the report as a table in Markdown."""
+    rows = ["| figure | measured | bar | where it comes from |", "|---|---|---|---|"]
+    bars = bars_of(json.loads(REPORT.read_text()))
+    for manoeuvre, group in groupby(bars, key=lambda bar: bar.manoeuvre):
+        rows.append(f"| **{manoeuvre}** | | | |")
+        rows += [
+            f"| {bar.figure} | {number(bar.measured, bar.unit)} | {limits(bar)} | {bar.reason} |"
+            for bar in group
+        ]
+    return "\n".join(rows)
+
+
+def compared_table() -> str:
+    """Every comparison as a table in Markdown."""
+    parts = []
+    for title, models in json.loads(COMPARISON.read_text()).items():
+        rows = [f"| {title} | {' | '.join(models)} |", "|---|" + "---|" * len(models)]
+        for figure, first in next(iter(models.values())).items():
+            values = [model[figure]["value"] for model in models.values()]
+            cells = ["-" if value is None else number(value, "") for value in values]
+            rows.append(f"| {figure} [{first['unit']}] | {' | '.join(cells)} |")
+        parts.append("\n".join(rows))
+    return "\n\n".join(parts)
+
+
+def with_tables(text: str) -> str:
+    """Put the tables between their marks in the card."""
+    for mark, table in (("measured", measured_table()), ("compared", compared_table())):
+        begin, end = f"<!-- {mark}: begin -->\n", f"<!-- {mark}: end -->"
+        head, _, rest = text.partition(begin)
+        _, _, tail = rest.partition(end)
+        text = f"{head}{begin}{table}\n{end}{tail}"
+    return text
+
+
+if __name__ == "__main__":
+    CARD.write_text(with_tables(CARD.read_text()))
