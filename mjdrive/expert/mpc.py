@@ -5,7 +5,6 @@ coordinates, and solves a nonlinear optimal control problem (`mpc_problem`) for 
 without a plan is made by the PID expert, and counted.
 """
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +14,7 @@ from mjdrive.config import MpcConfig, PidConfig
 from mjdrive.datatypes import Action, Route, Situation, Town
 from mjdrive.expert import reference
 from mjdrive.expert.frenet import frenet_state
+from mjdrive.expert.handover import Handover
 from mjdrive.expert.mpc_problem import MpcProblem
 from mjdrive.expert.mpc_solver import MpcSolver, SolveCounts, SolveStatus
 from mjdrive.expert.pid import PidExpert
@@ -28,9 +28,6 @@ HOLD_SPEED = 0.15
 
 HOLD_DISTANCE = 0.4
 """It has come to its resting place when that is this near [m]."""
-
-HANDOVER_TIME = 0.2
-"""Time constant with which the PID's own action takes the place of the last plan's [s]."""
 
 PUSHED = 0.06
 """Wheels this far from their command have been turned by something else than the rack [rad]."""
@@ -62,6 +59,7 @@ class MpcExpert:
 
     Attributes:
         config: Weights, limits and solver.
+        solver_name: Name of the solver in use: the wanted one, or its stand-in.
         solves: How its solves have ended since it was made.
 
     Args:
@@ -95,23 +93,15 @@ class MpcExpert:
         self._interval = control_interval
         self._problem = MpcProblem(self.config, self._car, interval=control_interval)
         self._solver = MpcSolver(self._problem, self.config)
+        self.solver_name = self._solver.name
+        self.solves: SolveCounts = self._solver.counts
         self._pid = PidExpert(
             town, parameters=self._car, config=self._law, control_interval=control_interval
         )
         self._plan: _Plan | None
         self._last: Action | None
-        self._gap: Float[np.ndarray, " 2"]
+        self._handover = Handover(control_interval)
         self.reset(0)
-
-    @property
-    def solver_name(self) -> str:
-        """Name of the solver in use: the wanted one, or its stand-in."""
-        return self._solver.name
-
-    @property
-    def solves(self) -> SolveCounts:
-        """How its solves have ended since it was made."""
-        return self._solver.counts
 
     def reset(self, seed: int) -> None:
         """Forget the past; the expert is deterministic, so the seed has no effect."""
@@ -136,21 +126,18 @@ class MpcExpert:
         self._recovers = self._is_recovering(view)
         self.solves.recoveries += self._recovers
         planned = None if self._recovers else self._planned(view, distance)
-        own = np.array([stand_in.acceleration, stand_in.steering])
         if planned is None:
             self._plan = None
-            self._gap *= math.exp(-self._interval / HANDOVER_TIME)
-            acceleration, steering = np.clip(own + self._gap, -1.0, 1.0)
-            planned = Action(acceleration=float(acceleration), steering=float(steering))
+            planned = self._handover.take_over(stand_in)
         else:
-            self._gap = np.array([planned.acceleration, planned.steering]) - own
+            self._handover.watch(planned, stand_in)
         self._last = planned
         return planned
 
     def _forget(self) -> None:
         self._plan = None
         self._last = None
-        self._gap = np.zeros(2)
+        self._handover.forget()
         self._recovers = False
 
     def _is_recovering(self, view: Situation) -> bool:
