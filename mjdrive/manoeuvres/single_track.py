@@ -8,7 +8,7 @@ The linear model has the states lateral speed v and yaw rate r of the centre of 
 with the centre of gravity a behind the front and b ahead of the rear axle, L = a + b, and all angles small.
 
 Reference:
-    Riekert, Schunck, Zur Fahrmechanik des gummibereiften Kraftfahrzeugs, Ingenieur-Archiv 11, 1940: the model.
+    Riekert, Schunck, Zur Fahrmechanik des gummibereiften Kraftfahrzeugs, Ing.-Arch. 11, 1940: the model.
     Rajamani, Vehicle Dynamics and Control, 2nd edition, 2012: section 2.2 (kinematic), equation (2.31) (linear, with our
         C_f and C_r as its 2 C_af and 2 C_ar), section 3.3 (steady state).
     Mitschke, Wallentowitz, Dynamik der Kraftfahrzeuge, 5th edition, 2014, chapter on the linear single-track model:
