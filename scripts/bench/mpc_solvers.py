@@ -19,12 +19,13 @@ from mjdrive.expert.mpc_problem import MpcProblem
 from mjdrive.expert.mpc_solver import SOLVERS, MpcSolver, Solution, SolveStatus, is_available
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import library, routing
+from mjdrive.vehicle.parameters import VehicleParameters
 
 INTERVAL = 0.1
 
 
 def record(town_name: str, route_name: str, *, every: int, num_steps: int) -> list[tuple[Any, ...]]:
-    """Drive a route and keep every so-manieth problem: guess, parameters and bounds."""
+    """Drive a route and keep every n-th problem: guess, parameters and bounds."""
     town = library.load(town_name)
     waypoints = np.array(library.load_settings(town_name).routes[route_name])
     follow = FollowRoute(routing.route_through(town, waypoints))
@@ -73,15 +74,18 @@ def main() -> None:
     parser.add_argument("--town", default="town02")
     parser.add_argument("--route", default="route1")
     parser.add_argument("--steps", type=int, default=1500, help="control steps to record")
-    parser.add_argument("--every", type=int, default=15, help="keep every so-manieth problem")
+    parser.add_argument("--every", type=int, default=15, help="keep every n-th problem")
     parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--cold", action="store_true", help="begin at zero, not at the last plan")
     arguments = parser.parse_args()
     problems = record(
         arguments.town, arguments.route, every=arguments.every, num_steps=arguments.steps
     )
+    if arguments.cold:
+        problems = [(np.zeros_like(guess), *rest) for guess, *rest in problems]
     config = MpcConfig()
-    simulation_car = MpcExpert(library.load(arguments.town))._car
-    problem = MpcProblem(config, simulation_car, interval=INTERVAL)
+    car = VehicleParameters.default()
+    problem = MpcProblem(config, car, interval=INTERVAL)
     names = [name for name in SOLVERS if is_available(name)]
     solvers = {name: MpcSolver(problem, replace(config, solver=name)) for name in names}
     solutions: dict[str, list[list[Solution]]] = {name: [] for name in names}
