@@ -19,7 +19,9 @@ PAGES = [
         "CONTRIBUTING.md",
         "CHANGELOG.md",
         "docs/towns.md",
+        "docs/car.md",
         "docs/cars.md",
+        "docs/experts.md",
     )
 ]
 
