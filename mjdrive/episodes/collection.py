@@ -13,6 +13,7 @@ from mjdrive.episodes.rollout import rollout
 from mjdrive.episodes.views import FollowRoute, FollowWalk
 from mjdrive.errors import RouteError
 from mjdrive.expert.experts import make_expert
+from mjdrive.expert.solves import SolveWatch
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import routing
 from mjdrive.town.random_walk import RandomWalk
@@ -169,9 +170,11 @@ def _drive(
         rng = np.random.default_rng([seed, 1])
         disturbance = Disturbance(config.disturbance, rng, interval=interval)
     watch = RouteWatch(view)
+    expert = expert or expert_of(config, simulation)
+    solves = SolveWatch(expert)
     episode = rollout(
         simulation,
-        expert or expert_of(config, simulation),
+        expert,
         watch,
         num_steps=max(int(config.step_limit_per_metre * length), _LEAST_STEPS),
         seed=seed,
@@ -179,13 +182,13 @@ def _drive(
         stop=stop,
         on_step=on_step,
     )
-    if disturbance is None:
-        return episode
-    found = recoveries(
-        episode, offset=np.array(watch.offset), heading_error=np.array(watch.heading_error)
-    )
-    metadata = {DEVIATIONS: str(found.deviations), RECOVERED: str(found.recovered)}
-    return dataclasses.replace(episode, metadata={**episode.metadata, **metadata})
+    metadata = {**episode.metadata, **solves.metadata()}
+    if disturbance is not None:
+        found = recoveries(
+            episode, offset=np.array(watch.offset), heading_error=np.array(watch.heading_error)
+        )
+        metadata |= {DEVIATIONS: str(found.deviations), RECOVERED: str(found.recovered)}
+    return dataclasses.replace(episode, metadata=metadata)
 
 
 def _require_arrived(arrived: bool, station: float, length: float, episode: Episode) -> None:

@@ -4,6 +4,7 @@ import dataclasses
 import json
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from mjdrive import versions
 from mjdrive.config import CollectConfig
@@ -19,11 +20,23 @@ from mjdrive.episodes.collection import (
 from mjdrive.episodes.manifest import Collection, EpisodeEntry
 from mjdrive.episodes.plan import PlannedEpisode
 from mjdrive.expert.reference import require_green, stop_lines
+from mjdrive.expert.solves import SolveWatch
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.vehicle.cars import CarModel
 
-Driven = tuple[EpisodeEntry, bytes]
-"""The entry of an episode in the manifest, and its file."""
+
+class Driven(NamedTuple):
+    """An episode that was driven.
+
+    Attributes:
+        entry: Its entry in the manifest.
+        content: Its file, byte for byte.
+        late_solves: Solves of the expert that took long on this machine [-].
+    """
+
+    entry: EpisodeEntry
+    content: bytes
+    late_solves: int
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -91,6 +104,7 @@ class Collector:
         Raises:
             RouteError: If the expert does not arrive.
         """
+        solves = SolveWatch(self._expert)
         if episode.route:
             driven = collect_route(
                 self._simulation,
@@ -111,13 +125,14 @@ class Collector:
             )
         described = self._described(driven)
         content = store.to_bytes(described)
-        return dataset.describe(
+        entry = dataset.describe(
             described,
             name=episode.name,
             file=f"{episode.name}.hdf5",
             content=content,
             collection=self._job.number,
-        ), content
+        )
+        return Driven(entry, content, solves.late)
 
     def _described(self, episode: Episode) -> Episode:
         """Give an episode the description of the collection that it belongs to."""

@@ -1,5 +1,6 @@
 """A data set: a folder of episode files and the manifest that guards them."""
 
+import json
 from collections import Counter
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from mjdrive.episodes import store
 from mjdrive.episodes.manifest import FORMAT, EpisodeEntry, Manifest
 from mjdrive.episodes.recovery import DEVIATIONS, RECOVERED
 from mjdrive.errors import ConfigError, DataError
+from mjdrive.expert.solves import SOLVER, SOLVES
 from mjdrive.town import library
 
 MANIFEST = "manifest.json"
@@ -36,6 +38,8 @@ def describe(
         deviations=int(episode.metadata.get(DEVIATIONS, 0)),
         recovered=int(episode.metadata.get(RECOVERED, 0)),
         collection=collection,
+        solver=episode.metadata.get(SOLVER, ""),
+        solves=json.loads(episode.metadata.get(SOLVES, "{}")),
     )
 
 

@@ -95,7 +95,7 @@ def collect(
     with closing(_driven(job, missing, num_processes=jobs, report=report)) as driven:
         # On disk first, so that a folder with an episode in it always says what it is.
         manifest = _keep(manifest, number, planned, finished, folder)
-        for entry, content in driven:
+        for entry, content, _ in driven:
             write_atomically(folder / entry.file, content)
             finished[entry.name] = entry
             manifest = _keep(manifest, number, planned, finished, folder)

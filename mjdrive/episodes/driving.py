@@ -1,5 +1,6 @@
 """Free driving: no route for learned policies, a random walk through the town for experts."""
 
+import dataclasses
 from collections.abc import Callable, Mapping
 
 import numpy as np
@@ -10,6 +11,7 @@ from mjdrive.episodes.collection import expert_of
 from mjdrive.episodes.rollout import rollout
 from mjdrive.episodes.views import FollowWalk, observe
 from mjdrive.expert.reference import require_green
+from mjdrive.expert.solves import SolveWatch
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import routing
 from mjdrive.town.random_walk import RandomWalk
@@ -57,6 +59,7 @@ def drive_expert(
     seed: int,
     config: CollectConfig | None = None,
     on_step: Callable[[int], None] | None = None,
+    on_late_solves: Callable[[int], None] | None = None,
     metadata: Mapping[str, str] | None = None,
 ) -> Episode:
     """Let an expert take random turns, from the place where `drive` starts with the same seed and steps.
@@ -69,6 +72,7 @@ def drive_expert(
         seed: Decides start, lights and turns.
         config: Which expert drives, and its settings; the PID expert if None.
         on_step: Told the number of control steps done.
+        on_late_solves: Told at the end how many solves of the expert took long on this machine.
         metadata: Versions, digests and settings to keep with the episode.
 
     Returns:
@@ -92,7 +96,8 @@ def drive_expert(
         length=_way(simulation, config.pid, num_steps),
     )
     simulation.reset(lane=lane, station=station, seed=seed)
-    return rollout(
+    solves = SolveWatch(expert)
+    episode = rollout(
         simulation,
         expert,
         FollowWalk(walk),
@@ -101,6 +106,9 @@ def drive_expert(
         on_step=on_step,
         metadata=metadata,
     )
+    if on_late_solves is not None:
+        on_late_solves(solves.late)
+    return dataclasses.replace(episode, metadata={**episode.metadata, **solves.metadata()})
 
 
 def _start(

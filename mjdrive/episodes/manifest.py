@@ -1,6 +1,6 @@
 """What a data set says about itself."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from mjdrive.vehicle import cars
@@ -21,6 +21,8 @@ class EpisodeEntry:
         deviations: How often a disturbance pushed the car off its route [-].
         recovered: How often it found back [-].
         collection: The collection that it belongs to, as a number in `Manifest.collections` [-].
+        solver: Name of the solver that the expert used; empty for one that solves nothing.
+        solves: How often its solves ended in which way, see `mjdrive.expert.solves.OUTCOMES` [-].
     """
 
     name: str
@@ -31,6 +33,8 @@ class EpisodeEntry:
     deviations: int = 0
     recovered: int = 0
     collection: int = 0
+    solver: str = ""
+    solves: dict[str, int] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

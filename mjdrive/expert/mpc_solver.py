@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from enum import Enum
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -14,6 +13,7 @@ from jaxtyping import Float
 from mjdrive.config import MpcConfig
 from mjdrive.errors import SolverError
 from mjdrive.expert.mpc_problem import Bounds, MpcProblem
+from mjdrive.expert.solves import SolveCounts
 
 
 class SolveStatus(Enum):
@@ -38,27 +38,6 @@ class Solution(NamedTuple):
     variables: Float[np.ndarray, " X"]
     cost: float
     iterations: int
-
-
-@dataclass
-class SolveCounts:
-    """How the solves of an expert have ended since it was made.
-
-    Attributes:
-        solved: Plans found [-].
-        max_iterations: Solves that were given up at the limit of iterations [-].
-        failed: Solves that ended without a plan [-].
-        recoveries: Decisions that were left to the PID without a solve, because something had pushed the car [-].
-        late: Solves that took longer than `MpcConfig.late_after`, plan or not [-]; hangs on the machine, decides nothing.
-        times: CPU time of each solve [s].
-    """
-
-    solved: int = 0
-    max_iterations: int = 0
-    failed: int = 0
-    recoveries: int = 0
-    late: int = 0
-    times: list[float] = field(default_factory=list)
 
 
 class Recipe(NamedTuple):
