@@ -33,6 +33,7 @@ class MpcConfig:
         braking: Deceleration of the reference towards a stop line or a slower stretch, where there is room for it [m/s2].
         max_jerk: Limit of the rate of the acceleration [m/s3].
         max_braking: Limit of the deceleration [m/s2].
+        hard_stop: A light that asks for more deceleration than this is stopped for by the PID, which brakes at once [m/s2].
         steering_rate_share: Part of the car's steering rate that a plan may use [-].
         solver: Name of the solver, one of `mjdrive.expert.mpc_solver.SOLVERS`.
         fallback_solver: Solver to take where casadi lacks a plug-in of the first, or None to refuse.
@@ -61,6 +62,7 @@ class MpcConfig:
     braking: float = 2.0
     max_jerk: float = 10.0
     max_braking: float = 7.0
+    hard_stop: float = 3.5
     steering_rate_share: float = 0.9
     solver: str = "fatrop"
     fallback_solver: str | None = None
@@ -87,10 +89,12 @@ class MpcConfig:
             0 < self.steering_rate_share <= 1,
             f"steering_rate_share is {self.steering_rate_share}; expected a share in (0, 1].",
         )
-        require(
-            self.max_braking >= self.braking,
-            f"max_braking is {self.max_braking} m/s2; expected at least braking ({self.braking} m/s2).",
-        )
+        for name in ("max_braking", "hard_stop"):
+            value = getattr(self, name)
+            require(
+                value >= self.braking,
+                f"{name} is {value} m/s2; expected at least braking ({self.braking} m/s2).",
+            )
         require(
             self.max_iterations >= 1,
             f"max_iterations is {self.max_iterations}; expected at least 1.",

@@ -16,8 +16,9 @@ from mjdrive.expert import reference
 from mjdrive.expert.frenet import frenet_state
 from mjdrive.expert.handover import Handover
 from mjdrive.expert.mpc_problem import MpcProblem
-from mjdrive.expert.mpc_solver import MpcSolver, SolveCounts, SolveStatus
+from mjdrive.expert.mpc_solver import MpcSolver, SolveStatus
 from mjdrive.expert.pid import PidExpert
+from mjdrive.expert.solves import SolveCounts
 from mjdrive.expert.speed_profile import Reference, SpeedProfile
 from mjdrive.vehicle.bicycle import BicycleState
 from mjdrive.vehicle.drivetrain import Drivetrain
@@ -107,6 +108,7 @@ class MpcExpert:
         """Forget the past; the expert is deterministic, so the seed has no effect."""
         self._pid.reset(seed)
         self._route: Route | None = None
+        self._stopping_for = ""
         self._forget()
 
     def act(self, view: Situation) -> Action:
@@ -114,18 +116,23 @@ class MpcExpert:
         if view.route is not self._route:
             self._take_route(view.route)
         stand_in = self._pid.act(view)
-        distance = reference.distance_to_stop(
+        stop = reference.stop_ahead(
             view,
             self._stops,
             nose_ahead=self._car.length - self._car.rear_overhang,
             config=self._law,
+            stopping_for=self._stopping_for,
         )
+        self._stopping_for = "" if stop is None else stop.light
+        distance = None if stop is None else stop.distance
         if self._is_at_rest(view, distance):
             self._forget()
             return Action(acceleration=-1.0, steering=0.0)
         self._recovers = self._is_recovering(view)
+        is_hard_stop = self._is_hard_stop(view, distance)
         self.solves.recoveries += self._recovers
-        planned = None if self._recovers else self._planned(view, distance)
+        self.solves.hard_stops += is_hard_stop and not self._recovers
+        planned = None if self._recovers or is_hard_stop else self._planned(view, distance)
         if planned is None:
             self._plan = None
             planned = self._handover.take_over(stand_in)
@@ -172,6 +179,13 @@ class MpcExpert:
     def _is_at_rest(self, view: Situation, distance: float | None) -> bool:
         """Whether the car has come to where it must wait."""
         return distance is not None and distance < HOLD_DISTANCE and view.vehicle.speed < HOLD_SPEED
+
+    def _is_hard_stop(self, view: Situation, distance: float | None) -> bool:
+        """Whether a light came so late that a smooth plan would roll over the line."""
+        if distance is None:
+            return False
+        to_line = distance + self._law.stop_gap
+        return view.vehicle.speed**2 > 2 * self.config.hard_stop * max(to_line, 0.0)
 
     def _planned(self, view: Situation, distance: float | None) -> Action | None:
         """The first action of a new plan, or None if there is none."""

@@ -73,6 +73,7 @@ class PidExpert:
         self._steering_pid = Pid(self.config.steering_gains, window=window, interval=self._interval)
         self._route: Route | None = None
         self._stops: tuple[reference.StopLine, ...] = ()
+        self._stopping_for = ""
 
     def act(self, view: Situation) -> Action:
         """Follow the route for the next control interval."""
@@ -80,15 +81,20 @@ class PidExpert:
             self._route = view.route
             self._stops = reference.stop_lines(self._town, view.route)
         steering = self._steer(view)
-        remaining = reference.distance_to_stop(
-            view, self._stops, nose_ahead=self._nose_ahead, config=self.config
+        stop = reference.stop_ahead(
+            view,
+            self._stops,
+            nose_ahead=self._nose_ahead,
+            config=self.config,
+            stopping_for=self._stopping_for,
         )
+        self._stopping_for = "" if stop is None else stop.light
         wanted = reference.turn_speed_limit(view, self.config)
         if abs(view.offset) > self.config.recovery_offset:
             # At speed the rack is too slow for large corrections: they would grow from side to side.
             wanted = min(wanted, self.config.recovery_speed)
-        if remaining is not None:
-            wanted = min(wanted, float(np.sqrt(2 * self.config.braking * max(remaining, 0.0))))
+        if stop is not None:
+            wanted = min(wanted, float(np.sqrt(2 * self.config.braking * max(stop.distance, 0.0))))
             if wanted < 0.5 and view.vehicle.speed < 1.0:
                 return Action(acceleration=-1.0, steering=0.0)
         return Action(acceleration=self._accelerate(view, wanted, steering), steering=steering)

@@ -23,6 +23,18 @@ class StopLine(NamedTuple):
     light: str
 
 
+class Stop(NamedTuple):
+    """Where the car must stand.
+
+    Attributes:
+        light: Name of the light that asks for it.
+        distance: How far the car may still roll, less than 0 if it is too far already [m].
+    """
+
+    light: str
+    distance: float
+
+
 def stop_lines(town: Town, route: Route) -> tuple[StopLine, ...]:
     """Find the lights along a route.
 
@@ -95,30 +107,41 @@ def turn_speed_limit(situation: Situation, config: PidConfig) -> float:
     return float(min(here.min(), config.target_speed))
 
 
-def distance_to_stop(
-    situation: Situation, stops: tuple[StopLine, ...], *, nose_ahead: float, config: PidConfig
-) -> float | None:
-    """How far the car may still roll before it must stand.
+def stop_ahead(
+    situation: Situation,
+    stops: tuple[StopLine, ...],
+    *,
+    nose_ahead: float,
+    config: PidConfig,
+    stopping_for: str = "",
+) -> Stop | None:
+    """Find where the car must stand.
+
+    A red light is stopped for however late it is; a yellow one unless that takes hard braking. Who has begun to stop
+    for a yellow light goes on, even if it has since become harder.
 
     Args:
         situation: Where the car is on its route, and the lights.
         stops: Lights on the route.
         nose_ahead: Distance of the nose ahead of the rear axle [m].
         config: Gap to keep, and which late yellow is passed.
+        stopping_for: Name of the light that the car has begun to stop for, if any.
 
     Returns:
-        Distance to the resting place [m], or None if nothing ahead asks to stop.
+        The stop, or None if nothing ahead asks for one.
     """
     nose = situation.station + nose_ahead
     for stop in stops:
-        # A nose just over the line at walking pace still waits: the infraction comes with the tail.
+        # A nose just over the line still waits: the infraction comes with the tail.
         to_line = stop.station - nose
         if to_line < -1.0:
             continue
-        if situation.lights[stop.light] is Signal.GREEN:
+        signal = situation.lights[stop.light]
+        if signal is Signal.GREEN:
             return None
         needed = situation.vehicle.speed**2 / (2 * max(to_line, 0.05))
-        if needed > config.late_braking:
+        is_late = needed > config.late_braking and stop.light != stopping_for
+        if signal is Signal.YELLOW and is_late:
             return None
-        return to_line - config.stop_gap
+        return Stop(stop.light, to_line - config.stop_gap)
     return None

@@ -52,10 +52,16 @@ def situation(*, station: float, speed: float = 6.0, signal: Signal = Signal.RED
     return Situation(0.0, state, bend(), station, 0.0, {"light": signal})
 
 
-def distance(place: Situation) -> float | None:
-    return reference.distance_to_stop(
-        place, reference.stop_lines(TOWN, place.route), nose_ahead=3.5, config=CONFIG
+def distance(place: Situation, stopping_for: str = "") -> float | None:
+    stop = reference.stop_ahead(
+        place,
+        reference.stop_lines(TOWN, place.route),
+        nose_ahead=3.5,
+        config=CONFIG,
+        stopping_for=stopping_for,
     )
+    assert stop is None or stop.light == "light"
+    return None if stop is None else stop.distance
 
 
 def test_stop_line_lies_at_the_end_of_the_lane():
@@ -82,6 +88,24 @@ def test_green_stops_nobody():
 def test_late_yellow_is_passed_when_stopping_would_be_an_emergency():
     station = 40.5 - 3.5 - 2.0  # nose 2 m before the line at 6 m/s: 9 m/s2
     assert distance(situation(station=station, signal=Signal.YELLOW)) is None
+
+
+def test_who_has_begun_to_stop_for_a_yellow_goes_on_when_it_has_become_late():
+    late = situation(station=40.5 - 3.5 - 2.0, signal=Signal.YELLOW)
+    assert distance(late, stopping_for="light") == pytest.approx(2.0 - CONFIG.stop_gap)
+    assert distance(late, stopping_for="another") is None
+
+
+@pytest.mark.parametrize(
+    ("speed", "to_line"), [(6.0, 3.0), (1.0, 0.05), (3.0, 0.8), (6.0, 0.0), (2.0, -0.9)]
+)
+def test_red_is_stopped_for_however_late_it_is(speed, to_line):
+    late = situation(station=40.5 - 3.5 - to_line, speed=speed, signal=Signal.RED)
+    assert distance(late) == pytest.approx(to_line - CONFIG.stop_gap)
+
+
+def test_light_that_lies_behind_asks_for_nothing():
+    assert distance(situation(station=40.5 - 3.5 + 1.1, signal=Signal.RED)) is None
 
 
 def test_car_that_waits_with_its_nose_just_over_the_line_goes_on_waiting():
