@@ -85,7 +85,10 @@ def _start(job: Job) -> tuple[SpawnProcess, Connection]:
 
 def _hand_out(waiting: deque[PlannedEpisode], connection: Connection) -> PlannedEpisode:
     episode = waiting.popleft()
-    connection.send(episode)
+    try:
+        connection.send(episode)
+    except (BrokenPipeError, ConnectionResetError) as error:
+        raise _ended(episode) from error
     return episode
 
 
@@ -93,10 +96,14 @@ def _receive(connection: Connection, episode: PlannedEpisode) -> int | Driven | 
     try:
         return connection.recv()
     except (EOFError, ConnectionResetError) as error:
-        raise WorkerError(
-            f"The process that drove '{episode.name}' was ended from outside, perhaps for want of memory. Expected it to "
-            f"finish. Run the same command again, which goes on from here, with fewer --jobs."
-        ) from error
+        raise _ended(episode) from error
+
+
+def _ended(episode: PlannedEpisode) -> WorkerError:
+    return WorkerError(
+        f"The process that drove '{episode.name}' was ended from outside, perhaps for want of memory. Expected it to "
+        f"finish. Run the same command again, which goes on from here, with fewer --jobs."
+    )
 
 
 def _work(job: Job, connection: Connection) -> None:
