@@ -81,7 +81,10 @@ def load(path: Path, kind: type[Settings], car: CarModel) -> Settings:
     Raises:
         ConfigError: If the file is no such file, or was made for another expert or another car.
     """
-    gains = config.read_json(Gains, path)
+    try:
+        gains = config.read_json(Gains, path)
+    except ConfigError as error:
+        raise ConfigError(f"'{path}' holds no tuned settings. {error}") from error
     expert = {PidConfig: "pid", MpcConfig: "mpc"}[kind]
     config.require(
         gains.format == FORMAT, f"'{path}' has format '{gains.format}'; expected '{FORMAT}'."
@@ -96,7 +99,10 @@ def load(path: Path, kind: type[Settings], car: CarModel) -> Settings:
             f"'{path}' was tuned for car '{gains.car}' {gains.car_digest[:12]}; driven is '{car.name}' "
             f"{car.digest[:12]}. {again}"
         )
-    return config.from_dict(kind, gains.settings)
+    try:
+        return config.from_dict(kind, gains.settings)
+    except ConfigError as error:
+        raise ConfigError(f"'{path}' cannot be used: {error} {again}") from error
 
 
 def applied(settings: CollectConfig, path: Path, car: CarModel) -> CollectConfig:
