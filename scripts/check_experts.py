@@ -21,6 +21,7 @@ import click
 import numpy as np
 
 from mjdrive.cli.console import progress_bars
+from mjdrive.cli.solving import solve_rows
 from mjdrive.config import CollectConfig
 from mjdrive.datatypes import Policy, Situation
 from mjdrive.episodes.collection import collect_route, expert_of
@@ -29,6 +30,7 @@ from mjdrive.errors import RouteError
 from mjdrive.evaluation import lane_keeping
 from mjdrive.evaluation.light_behaviour import is_rash, light_passages
 from mjdrive.expert import experts
+from mjdrive.expert.solves import SOLVER, SOLVES
 from mjdrive.files import write_atomically
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import library
@@ -55,6 +57,8 @@ class Drive:
     rash_lights: tuple[str, ...]
     slowest_start_s: float
     offset_rms_m: float
+    solver: str = ""
+    solves: dict[str, int] = dataclasses.field(default_factory=dict)
     reason: str = ""
 
     @property
@@ -90,7 +94,9 @@ def drive(job: Job) -> Drive:
     try:
         episode = collect_route(simulation, route, config=settings, seed=seed, expert=expert)
     except RouteError as error:
-        return Drive(expert_name, town_name, route_name, seed, 0, 0.0, (), (), 0.0, 0.0, str(error))
+        return Drive(
+            expert_name, town_name, route_name, seed, 0, 0.0, (), (), 0.0, 0.0, reason=str(error)
+        )
     car_size = simulation.car.parameters
     passages = light_passages(
         episode, town, route, nose_ahead=car_size.length - car_size.rear_overhang
@@ -108,6 +114,8 @@ def drive(job: Job) -> Drive:
         rash_lights=tuple(it.light for it in passages if is_rash(it, late_braking=late)),
         slowest_start_s=max((it.start_delay or 0.0 for it in passages), default=0.0),
         offset_rms_m=keeping.offset_rms_m or 0.0,
+        solver=episode.metadata.get(SOLVER, ""),
+        solves=json.loads(episode.metadata.get(SOLVES, "{}")),
     )
 
 
@@ -126,8 +134,15 @@ def row(name: str, town: str, drives: Sequence[Drive]) -> str:
         f"{max(it.slowest_start_s for it in drives):.1f}",
         f"{statistics.mean(laps):,.0f} ± {spread:.0f}",
         f"{np.sqrt(np.mean([it.offset_rms_m**2 for it in drives])):.2f}",
+        solves(drives),
     )
     return f"| {' | '.join(str(cell) for cell in cells)} |"
+
+
+def solves(drives: Sequence[Drive]) -> str:
+    """Solver and what became of its solves, in the words of the closing tables; a dash if nothing was solved."""
+    told = solve_rows((it.solver for it in drives), (it.solves for it in drives))
+    return "; ".join(told.values()) or "-"
 
 
 @click.command()
@@ -165,8 +180,8 @@ def main(
         "| expert | town | flawless | infractions | off road [s] | rash | slowest start [s] ",
         end="",
     )
-    print("| all routes [s] | lane offset RMS [m] |")
-    print(f"|{'---|' * 9}")
+    print("| all routes [s] | lane offset RMS [m] | solves |")
+    print(f"|{'---|' * 10}")
     for name in names:
         for town in towns:
             print(row(name, town, [it for it in drives if (it.expert, it.town) == (name, town)]))

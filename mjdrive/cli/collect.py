@@ -4,6 +4,8 @@ from pathlib import Path
 
 import rich_click as click
 
+from mjdrive.cli.solving import solver_options
+
 
 @click.command()
 @click.option("--town", "town_name", required=True, metavar="NAME", help="Town to drive in.")
@@ -40,6 +42,7 @@ import rich_click as click
     metavar="pid|mpc",
     help="Who drives.",
 )
+@solver_options
 @click.option(
     "--noise",
     type=float,
@@ -97,6 +100,8 @@ def collect(
     random_walk_km: float | None,
     episodes: int | None,
     expert: str,
+    solver: str | None,
+    fallback_solver: str | None,
     noise: float | None,
     throttle_noise: float | None,
     car_name: str,
@@ -112,7 +117,8 @@ def collect(
     An interrupted collection can be run again and goes on.
     """
     from mjdrive.cli.collected import rows
-    from mjdrive.cli.console import closing_table, episode_bars
+    from mjdrive.cli.console import closing_table, ended_by_sigterm, episode_bars
+    from mjdrive.cli.solving import late_row
     from mjdrive.episodes import dataset, presets
     from mjdrive.episodes.demonstrations import collect as collect_routes
     from mjdrive.episodes.plan import lay_routes, plan
@@ -140,12 +146,12 @@ def collect(
     )
     if gains is not None:
         settings = applied(settings, gains, car)
+    settings = presets.with_solver(settings, solver, fallback_solver)
     routes = lay_routes(town, waypoints, settings=settings)
     planned = plan(town, routes, settings=settings, seed=seed)
     folder = out or Path("data") / town.name
-    if overwrite:
-        dataset.remove(folder)
-    with episode_bars(town.name, total=len(planned)) as report:
+    late_solves: list[int] = []
+    with ended_by_sigterm(), episode_bars(town.name, total=len(planned)) as report:
         collect_routes(
             town,
             routes,
@@ -155,7 +161,9 @@ def collect(
             car=car,
             jobs=jobs,
             mix=mix,
+            overwrite=overwrite,
             report=report,
+            on_late_solves=late_solves.append,
         )
     manifest, driven = dataset.read_dataset(folder)
     drives = dict(zip((entry.name for entry in manifest.episodes), driven, strict=True))
@@ -165,6 +173,7 @@ def collect(
         {
             "folder": folder,
             **rows(manifest, driven, town),
+            **(late_row(sum(late_solves), settings.mpc.late_after) if expert == "mpc" else {}),
             "picture": folder / "overview.png",
         },
         next_command="mjdrive train da-ibc" + ("" if out is None else f" --data {folder}"),

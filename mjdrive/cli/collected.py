@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Sequence
 
+from mjdrive.cli.solving import solve_rows
 from mjdrive.config import CollectConfig, PidConfig, from_dict
 from mjdrive.datatypes import Episode, Move, Town
 from mjdrive.episodes.manifest import Collection, Manifest
@@ -38,6 +39,10 @@ def rows(manifest: Manifest, episodes: Sequence[Episode], town: Town) -> dict[st
         "the paper's": _beside_the_paper(manifest, samples),
         "infractions": ", ".join(f"{count} {kind}" for kind, count in sorted(infractions.items()))
         or "0",
+        **solve_rows(
+            (entry.solver for entry in manifest.episodes),
+            (entry.solves for entry in manifest.episodes),
+        ),
     }
     deviations = sum(entry.deviations for entry in manifest.episodes)
     if deviations:

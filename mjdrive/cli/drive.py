@@ -4,6 +4,8 @@ from pathlib import Path
 
 import rich_click as click
 
+from mjdrive.cli.solving import solver_options
+
 RUNS = Path("runs")
 DRIVES = Path("drives")
 
@@ -43,6 +45,7 @@ DRIVES = Path("drives")
     metavar="FILE",
     help="Settings of the expert that `mjdrive tune` found for this car.",
 )
+@solver_options
 @click.option(
     "--seed",
     default=0,
@@ -64,6 +67,8 @@ def drive(
     preset: str | None,
     car_name: str,
     gains: Path | None,
+    solver: str | None,
+    fallback_solver: str | None,
     seed: int,
     out: Path | None,
 ) -> None:
@@ -84,8 +89,10 @@ def drive(
     driver = find_driver(policy_name, RUNS, preset=preset)
     if gains is not None:
         driver = driver.tuned(gains, car)
+    driver = driver.solved_by(solver, fallback_solver)
     folder = out or report.new_folder(DRIVES, datetime.datetime.now())
     report.require_new(folder)
+    late_solves: list[int] = []
     with progress_bars() as bars:
         task = bars.add_task(f"{driver.name} in {town.name}", total=num_steps)
         episode = driver.drive(
@@ -94,6 +101,7 @@ def drive(
             num_steps=num_steps,
             seed=seed,
             on_step=lambda done: bars.update(task, completed=done),
+            on_late_solves=late_solves.append,
         )
     summary = report.write_drive(episode, town, folder)
     closing_table(
@@ -108,6 +116,7 @@ def drive(
             "stuck": f"{summary.standstills} times",
             "off the lane's middle": _offset(summary.lane_keeping.offset_rms_m),
             "score": f"{summary.score:,.1f}",
+            **driver.solve_notes(episode, sum(late_solves)),
             "path": folder / "trajectory.png",
             "actions": folder / "actions.png",
             "figures": folder / "summary.json",

@@ -7,11 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mjdrive import config, versions
+from mjdrive.cli.solving import late_row, solve_rows
 from mjdrive.config import CollectConfig
 from mjdrive.datatypes import Episode, Town
-from mjdrive.episodes import driving, store
+from mjdrive.episodes import driving, presets, store
 from mjdrive.errors import ConfigError
 from mjdrive.expert import experts
+from mjdrive.expert.solves import SOLVER, SOLVES
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.tuning.gains import applied
 from mjdrive.vehicle.cars import CarModel
@@ -62,6 +64,35 @@ class Driver:
             )
         return _expert_driver(applied(self.expert, gains, car))
 
+    def solved_by(self, solver: str | None, fallback_solver: str | None) -> "Driver":
+        """The same expert with another solver, if one is named.
+
+        Raises:
+            ConfigError: If the driver solves nothing.
+        """
+        named = [name for name in (solver, fallback_solver) if name is not None]
+        if not named:
+            return self
+        if self.expert is None:
+            raise ConfigError(
+                f"{', '.join(named)} solves nothing for the trained policy {self.name}. Leave --solver and "
+                f"--fallback-solver out, or take --policy mpc."
+            )
+        return _expert_driver(presets.with_solver(self.expert, solver, fallback_solver))
+
+    def solve_notes(self, episode: Episode, late: int) -> dict[str, str]:
+        """Sum up the solves of a drive for people; nothing if the driver solves nothing.
+
+        Args:
+            episode: The drive.
+            late: Solves that took long [-].
+        """
+        if self.expert is None or SOLVER not in episode.metadata:
+            return {}
+        solves = json.loads(episode.metadata[SOLVES])
+        rows = solve_rows([episode.metadata[SOLVER]], [solves])
+        return rows | late_row(late, self.expert.mpc.late_after)
+
     def drive(
         self,
         town: Town,
@@ -70,6 +101,7 @@ class Driver:
         num_steps: int,
         seed: int,
         on_step: Callable[[int], None],
+        on_late_solves: Callable[[int], None] | None = None,
     ) -> Episode:
         """Drive freely, from a random place.
 
@@ -79,6 +111,7 @@ class Driver:
             num_steps: Control steps [-].
             seed: Same seed, same drive.
             on_step: Told the number of control steps done.
+            on_late_solves: Told at the end how many solves of an expert took long on this machine.
         """
         simulation = Simulation(town, car=car)
         settings = {
@@ -103,6 +136,7 @@ class Driver:
                 seed=seed,
                 config=self.expert,
                 on_step=on_step,
+                on_late_solves=on_late_solves,
                 metadata=metadata,
             )
         return driving.drive(

@@ -79,12 +79,33 @@ def digest(folder: Path) -> str:
     return store.digest((folder / MANIFEST).read_bytes())
 
 
+def files_of(folder: Path) -> tuple[Path, ...]:
+    """Files that make up a data set: its manifest and the episodes that this lists; none if there is no manifest.
+
+    Raises:
+        DataError: If nobody can tell, because the manifest cannot be read.
+    """
+    path = folder / MANIFEST
+    if not path.is_file():
+        return ()
+    try:
+        manifest = read_manifest(folder)
+    except DataError as error:
+        raise DataError(
+            f"{error} --overwrite deletes only what a manifest lists, so delete '{folder}' yourself, or give another "
+            f"folder with --out."
+        ) from error
+    return (path, *(folder / Path(entry.file).name for entry in manifest.episodes))
+
+
 def remove(folder: Path) -> None:
-    """Delete the manifest and the episode files of a data set; a folder without a manifest is left alone."""
-    if (folder / MANIFEST).is_file():
-        for path in folder.glob("*.hdf5"):
-            path.unlink()
-        (folder / MANIFEST).unlink()
+    """Delete the manifest and the episode files that it lists; a folder without a manifest is left alone.
+
+    Raises:
+        DataError: If the manifest cannot be read; then nothing is deleted.
+    """
+    for path in files_of(folder):
+        path.unlink(missing_ok=True)
 
 
 def read_dataset(folder: Path) -> tuple[Manifest, list[Episode]]:

@@ -38,7 +38,9 @@ def collect(
     car: CarModel | None = None,
     jobs: int = 1,
     mix: bool = False,
+    overwrite: bool = False,
     report: Report = lambda name, done, expected: None,
+    on_late_solves: Callable[[int], None] = lambda count: None,
 ) -> Manifest:
     """Let an expert drive the routes of a town, or take random turns, into a folder.
 
@@ -53,7 +55,9 @@ def collect(
         car: Which car drives; the default one if None.
         jobs: Processes that drive; the files do not depend on it.
         mix: Whether to add to a data set of the same town that was collected in another way.
+        overwrite: Whether to replace a data set that is there, once the first episode has been driven.
         report: Told how far the collection is.
+        on_late_solves: Told of each episode how many solves of its expert took long on this machine.
 
     Returns:
         The description of the finished data set.
@@ -76,7 +80,7 @@ def collect(
         car_digest=car.digest,
         num_planned=len(planned),
     )
-    manifest, number = find_place(folder, town, collection, mix=mix)
+    manifest, number = find_place(folder, town, collection, mix=mix, overwrite=overwrite)
     if number:
         planned = tuple(
             dataclasses.replace(episode, name=f"{episode.name}-mix{number}") for episode in planned
@@ -84,7 +88,7 @@ def collect(
     job = Job(town, routes, settings, car, collection, number)
     finished = {
         entry.name: entry
-        for entry in manifest.episodes
+        for entry in (() if overwrite else manifest.episodes)
         if entry.collection == number and dataset.is_intact(folder, entry)
     }
     for entry in finished.values():
@@ -93,13 +97,19 @@ def collect(
     if not missing:
         return manifest
     with closing(_driven(job, missing, num_processes=jobs, report=report)) as driven:
-        # On disk first, so that a folder with an episode in it always says what it is.
-        manifest = _keep(manifest, number, planned, finished, folder)
-        for entry, content, _ in driven:
+        is_described = False
+        for entry, content, late_solves in driven:
+            if not is_described:
+                if overwrite:
+                    dataset.remove(folder)
+                # On disk first, so that a folder with an episode in it always says what it is.
+                manifest = _keep(manifest, number, planned, finished, folder)
+                is_described = True
             write_atomically(folder / entry.file, content)
             finished[entry.name] = entry
             manifest = _keep(manifest, number, planned, finished, folder)
             report(entry.name, entry.steps, entry.steps)
+            on_late_solves(late_solves)
     return manifest
 
 

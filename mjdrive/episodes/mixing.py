@@ -10,7 +10,7 @@ from mjdrive.errors import DataError
 
 
 def find_place(
-    folder: Path, town: Town, collection: Collection, *, mix: bool
+    folder: Path, town: Town, collection: Collection, *, mix: bool, overwrite: bool = False
 ) -> tuple[Manifest, int]:
     """Say what is in a data folder already, and where a collection belongs in it.
 
@@ -19,6 +19,7 @@ def find_place(
         town: Where the collection is driven.
         collection: Its description.
         mix: Whether it may stand beside collections that were driven in another way.
+        overwrite: Whether it takes the place of what is there.
 
     Returns:
         The manifest with the collection in it, which is not written, and its number there.
@@ -26,7 +27,9 @@ def find_place(
     Raises:
         DataError: If the folder holds something else, or another collection with which this one shall not be mixed.
     """
-    if not (folder / dataset.MANIFEST).exists() and not any(folder.glob("*.hdf5")):
+    is_doomed = overwrite and bool(dataset.files_of(folder))
+    is_free = not (folder / dataset.MANIFEST).exists() and not any(folder.glob("*.hdf5"))
+    if is_doomed or is_free:
         values = {
             field.name: getattr(collection, field.name) for field in dataclasses.fields(Collection)
         }

@@ -72,6 +72,35 @@ def chosen(
     return config if throttle_noise is None else with_throttle_noise(config, throttle_noise)
 
 
+def with_solver(
+    config: CollectConfig, solver: str | None, fallback_solver: str | None
+) -> CollectConfig:
+    """Choose who solves for the MPC expert; what is None stays as it is.
+
+    Args:
+        config: Settings to change.
+        solver: Name of a solver, one of `mjdrive.expert.mpc_solver.SOLVERS`.
+        fallback_solver: The one to take where casadi lacks the first.
+
+    Raises:
+        ConfigError: If another expert drives.
+    """
+    named = [name for name in (solver, fallback_solver) if name is not None]
+    if not named:
+        return config
+    require(
+        config.expert == "mpc",
+        f"{', '.join(named)} solves nothing for the expert {config.expert}. Expected the expert mpc; choose that, "
+        f"or leave --solver and --fallback-solver out.",
+    )
+    mpc = dataclasses.replace(
+        config.mpc,
+        solver=config.mpc.solver if solver is None else solver,
+        fallback_solver=config.mpc.fallback_solver if fallback_solver is None else fallback_solver,
+    )
+    return dataclasses.replace(config, mpc=mpc)
+
+
 def route_names(text: str, known: Iterable[str]) -> tuple[str, ...]:
     """Read which routes are meant: names, numbers in the order of the town, and ranges of numbers, as in "0-3,loop".
 
