@@ -1,6 +1,7 @@
 """Drives the car of a compiled scene: commands in, state out, and the forces that MJCF cannot say."""
 
 import math
+from typing import cast
 
 import mujoco
 import numpy as np
@@ -45,16 +46,20 @@ class Car:
         self._tyres = Tyres(model, parameters)
         self._surroundings = Surroundings(model)
         self._body = model.body("car").id
-        self._spin_dof = np.array([model.joint(f"spin_{wheel}").dofadr[0] for wheel in WHEELS])
+        self._spin_dof = [int(model.joint(f"spin_{wheel}").dofadr[0]) for wheel in WHEELS]
         self._spin_qpos = np.array([model.joint(f"spin_{wheel}").qposadr[0] for wheel in WHEELS])
         self._lock = np.array([model.equality(f"lock_{wheel}").id for wheel in WHEELS])
         self._rack_qpos = model.joint("steer").qposadr[0]
         self._throttle_act = model.actuator("throttle").actadr[0]
         self._brake_act = model.actuator("brake").actadr[0]
         self._ctrl = [model.actuator(name).id for name in ("throttle", "brake", "steering")]
-        front = parameters.brake_front_share
-        self._brake_torque = 0.5 * parameters.brake_torque * np.repeat([front, 1.0 - front], 2)
-        self._tyre_speeds = np.zeros(4)
+        # Memory of MuJoCo, read and written number by number: four are done before numpy has begun.
+        self._qvel, self._act = _numbers(data.qvel), _numbers(data.act)
+        self._friction = _numbers(model.dof_frictionloss)
+        self._force = _numbers(data.xfrc_applied[self._body])
+        half, front = 0.5 * parameters.brake_torque, parameters.brake_front_share
+        self._brake_torque = [half * front] * 2 + [half * (1.0 - front)] * 2
+        self._tyre_speeds = [0.0] * 4
         self._brake_applied = 0.0
         self._holding = False
 
@@ -87,21 +92,22 @@ class Car:
         Args:
             action: Positive acceleration is throttle, negative is brake; positive steering turns left.
         """
-        acceleration, steering = np.clip([action.acceleration, action.steering], -1.0, 1.0)
+        acceleration = min(max(action.acceleration, -1.0), 1.0)
+        steering = min(max(action.steering, -1.0), 1.0)
         self._data.ctrl[self._ctrl] = max(acceleration, 0.0), max(-acceleration, 0.0), steering
 
     def update(self) -> None:
         """Renew brakes, air drag, tyres and standstill hold from the state; call it some fifty times a second."""
-        data = self._data
-        x_speed, y_speed = data.qvel[:2].tolist()
+        qvel, radius = self._qvel, self.parameters.wheel_radius
+        x_speed, y_speed = qvel[0], qvel[1]
         travel = math.hypot(x_speed, y_speed)
-        rolling = np.abs(data.qvel[self._spin_dof])
-        brake = float(data.act[self._brake_act])
+        rolling = [abs(qvel[dof]) for dof in self._spin_dof]
+        brake = self._act[self._brake_act]
         drag = -0.5 * AIR_DENSITY * self.parameters.drag_area * travel
-        data.xfrc_applied[self._body, :2] = drag * x_speed, drag * y_speed
-        self._apply(np.maximum(travel, rolling * self.parameters.wheel_radius), brake)
-        self._hold(travel + max(rolling.tolist()), brake)
-        self._surroundings.update(data)
+        self._force[0], self._force[1] = drag * x_speed, drag * y_speed
+        self._apply([max(travel, rate * radius) for rate in rolling], brake)
+        self._hold(travel + max(rolling), brake)
+        self._surroundings.update(self._data)
 
     def state(self) -> VehicleState:
         """Read where the car is and how it moves, at the rear axle."""
@@ -138,7 +144,7 @@ class Car:
         size = mujoco.mj_stateSize(self._model, _STATE)
         assert len(saved) == size + 10, f"{len(saved)} numbers saved, {size + 10} needed"
         physics, written = saved[:size].astype(float), saved[size:]
-        self._apply(written[:4].astype(float), float(written[4]))
+        self._apply(written[:4].tolist(), float(written[4]))
         self._holding = bool(written[5])
         self._model.eq_data[self._lock, 0] = written[6:]
         mujoco.mj_setState(self._model, self._data, physics, _STATE)
@@ -178,11 +184,12 @@ class Car:
         state = self.state()
         return world_from_vehicle(np.array(points), x=state.x, y=state.y, yaw=state.yaw)
 
-    def _apply(self, tyre_speeds: Float[np.ndarray, " 4"], brake: float) -> None:
+    def _apply(self, tyre_speeds: list[float], brake: float) -> None:
         # Coulomb friction in the spin joints is solved together with the contacts: it holds at standstill and never
         # drives the wheel backwards, which a velocity servo or a damper would.
-        torque = self.parameters.rolling_torque + brake * self._brake_torque
-        self._model.dof_frictionloss[self._spin_dof] = torque
+        rolling = self.parameters.rolling_torque
+        for dof, full in zip(self._spin_dof, self._brake_torque, strict=True):
+            self._friction[dof] = rolling + brake * full
         self._tyres.schedule(tyre_speeds)
         self._tyre_speeds, self._brake_applied = tyre_speeds, brake
 
@@ -209,6 +216,10 @@ class Car:
             + self.parameters.mass * downhill * self.parameters.wheel_radius
             + HOLD_RESERVE
         )
+
+
+def _numbers(array: np.ndarray) -> "memoryview[float]":
+    return cast("memoryview[float]", array.data)
 
 
 def _leave_static_geoms_in_place(model: mujoco.MjModel, data: mujoco.MjData) -> None:

@@ -13,6 +13,7 @@ WORLD = 0  # number of the body that holds all that stands
 MARGIN = 0.3  # steered wheels stand out of the box around the car [m]
 REACH_TIME = 0.1  # for which the answer holds, at the speed of the car [s]
 LEAST_UPRIGHT = 0.9  # a car that leans more may touch the road with its roof [-]
+ROAM = 15.0  # way for which the boxes around the car are looked up at once [m]
 
 
 class Surroundings:
@@ -40,6 +41,12 @@ class Surroundings:
         self._model = model
         self._bits = int(model.body_contype[WORLD]), int(model.body_conaffinity[WORLD])
         self._is_alone = model.ntree == 1
+        self._around: list[tuple[float, float, float, float]] = []
+        self._known = (
+            math.nan,
+            math.nan,
+            math.nan,
+        )  # middle and half side of where `_around` holds [m]
 
     def update(self, data: mujoco.MjData) -> None:
         """Search for contacts with the world from now on only if something stands near.
@@ -60,11 +67,19 @@ class Surroundings:
         reach = MARGIN + REACH_TIME * math.hypot(*data.qvel[:2].tolist())
         along_x = abs(cosine) * self._half_length + abs(sine) * self._half_width + reach
         along_y = abs(sine) * self._half_length + abs(cosine) * self._half_width + reach
-        return bool(
-            (
-                (self._left < x + along_x)
-                & (self._right > x - along_x)
-                & (self._bottom < y + along_y)
-                & (self._top > y - along_y)
-            ).any()
+        known_x, known_y, known = self._known
+        if not (abs(x - known_x) + along_x <= known and abs(y - known_y) + along_y <= known):
+            self._look_around(x, y, max(along_x, along_y) + ROAM)
+        left, right, bottom, top = x - along_x, x + along_x, y - along_y, y + along_y
+        return any(
+            box_left < right and box_right > left and box_bottom < top and box_top > bottom
+            for box_left, box_right, box_bottom, box_top in self._around
         )
+
+    def _look_around(self, x: float, y: float, reach: float) -> None:
+        """List the boxes that meet a square, so that few have to be compared while the car is within it."""
+        meet = (self._left < x + reach) & (self._right > x - reach)
+        meet &= (self._bottom < y + reach) & (self._top > y - reach)
+        sides = (self._left, self._right, self._bottom, self._top)
+        self._around = list(zip(*(side[meet].tolist() for side in sides), strict=True))
+        self._known = x, y, reach

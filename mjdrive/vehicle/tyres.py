@@ -10,7 +10,6 @@ R_n stays far above A: then the normal row is the tyre's spring, and sliding doe
 
 import mujoco
 import numpy as np
-from jaxtyping import Float
 
 from mjdrive.vehicle.assembly import WHEELS
 from mjdrive.vehicle.parameters import VehicleParameters
@@ -33,11 +32,11 @@ class Tyres:
         first, *_, last = pairs = [model.pair(f"tyre_{wheel}").id for wheel in WHEELS]
         assert pairs == list(range(first, last + 1)), "the pairs of the tyres follow each other"
         self._inverse_weight = model.body_invweight0[wheels, 0].tolist()
-        # Views of the model, and lists: four numbers are faster one by one than as arrays.
-        self._solimp = model.pair_solimp[first : last + 1]
-        self._solref = model.pair_solref[first : last + 1]
-        self._solref_friction = model.pair_solreffriction[first : last + 1]
-        self._solref_friction[:, 0] = -1.0
+        # Memory of the model, and lists: four numbers are faster one by one than as arrays.
+        self._solimp = memoryview(model.pair_solimp[first : last + 1])
+        self._solref = memoryview(model.pair_solref[first : last + 1])
+        self._solref_friction = memoryview(model.pair_solreffriction[first : last + 1])
+        model.pair_solreffriction[first : last + 1, 0] = -1.0
         self._spring = parameters.tyre_vertical_stiffness
         self._damping = parameters.tyre_vertical_damping
         self._slip_damping = STEP_DAMPING / model.opt.timestep
@@ -47,7 +46,7 @@ class Tyres:
         self._per_speed = (self._slip_damping / cornering_stiffness).tolist()
         self._soften_other_contacts([model.geom(f"tyre_{wheel}").id for wheel in WHEELS])
 
-    def schedule(self, speeds: Float[np.ndarray, " 4"]) -> None:
+    def schedule(self, speeds: list[float]) -> None:
         """Set the friction impedance for the speed of each tyre.
 
         Args:
@@ -55,18 +54,19 @@ class Tyres:
         """
         friction = [
             min(max(speed, MIN_SPEED), MAX_SPEED) * per_speed
-            for speed, per_speed in zip(speeds.tolist(), self._per_speed, strict=True)
+            for speed, per_speed in zip(speeds, self._per_speed, strict=True)
         ]
         ratio = max(IMPEDANCE_RATIO, MIN_NORMAL_REGULARIZATION / min(friction))
         self._model.opt.impratio = ratio
+        solimp, solref, solref_friction = self._solimp, self._solref, self._solref_friction
         for row, weight in enumerate(self._inverse_weight):
             regularization = ratio * friction[row]
             impedance = weight / (weight + regularization)
             scale = regularization * impedance
-            self._solimp[row, 0] = self._solimp[row, 1] = impedance
-            self._solref[row, 0] = -self._spring * scale
-            self._solref[row, 1] = -self._damping * scale
-            self._solref_friction[row, 1] = -self._slip_damping * impedance
+            solimp[row, 0] = solimp[row, 1] = impedance
+            solref[row, 0] = -self._spring * scale
+            solref[row, 1] = -self._damping * scale
+            solref_friction[row, 1] = -self._slip_damping * impedance
 
     def _soften_other_contacts(self, geoms: list[int]) -> None:
         """Give a tyre the same spring against kerbs and walls; a rigid one would kick three times as hard."""

@@ -7,6 +7,7 @@ import pytest
 from mjdrive.datatypes import Action
 from mjdrive.vehicle.assembly import OBSTACLE_BITS, car_on_road
 from mjdrive.vehicle.car import Car
+from mjdrive.vehicle.surroundings import Surroundings
 
 WALL_X = 40.0
 
@@ -88,6 +89,39 @@ def test_fast_car_looks_further_ahead():
     for speed, expected in ((0.0, False), (20.0, True)):
         car.place(WALL_X - 0.5 - nose - 1.5, 0.0, 0.0, speed=speed)
         assert looks(data) is expected
+
+
+def test_boxes_in_reach_are_those_of_the_whole_world_wherever_the_car_has_been():
+    """Jumps short and long among scattered blocks: the list of those around the car hides none."""
+    rng = np.random.default_rng(0)
+    spec = car_on_road(timestep=0.005)
+    contype, conaffinity = OBSTACLE_BITS
+    blocks = rng.uniform(-60.0, 60.0, (60, 2))
+    for x, y in blocks:
+        spec.worldbody.add_geom(
+            type=mujoco.mjtGeom.mjGEOM_BOX, size=[0.5, 0.5, 0.5], pos=[x, y, 0.5],
+            contype=contype, conaffinity=conaffinity,
+        )  # fmt: skip
+    model = spec.compile()
+    bits = int(model.body_contype[0]), int(model.body_conaffinity[0])
+    assert any(bits)
+    data = mujoco.MjData(model)
+    car = Car(model, data)
+    answers = []
+    x, y = 0.0, 0.0
+    for jump in rng.choice([0.5, 5.0, 30.0], 400):
+        x, y = np.clip(rng.normal((x, y), jump), -60.0, 60.0)
+        data.qpos[:2] = x, y
+        data.qvel[:2] = rng.normal(0.0, 10.0, 2)
+        car.update()
+        answers.append(looks(data))
+        model.body_contype[0], model.body_conaffinity[0] = bits
+        fresh = Surroundings(model)  # has been nowhere
+        fresh.update(data)
+        assert looks(data) == answers[-1]
+        distance = np.abs(blocks - (x, y)).max(axis=1).min()
+        assert answers[-1] or distance > 0.5  # not within a block
+    assert 40 < sum(answers) < 360
 
 
 def test_roof_of_a_car_that_rolls_over_meets_the_road():
