@@ -1,5 +1,6 @@
 """The same manoeuvres at half and at a quarter of the timestep."""
 
+import math
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
@@ -13,7 +14,7 @@ MOST_CHANGE = 5.0  # of any figure [%]
 
 
 def changes(reference: Handling, finer: Handling) -> Mapping[str, float]:
-    """Change of each figure, over its size.
+    """Change of each figure, over its size (`Handling.figures`).
 
     Args:
         reference: At the timestep that is used.
@@ -42,16 +43,23 @@ def bars(
     for divisor in DIVISORS:
         timestep = TIMESTEP / divisor
         finer = handling.measure(car, timestep=timestep, on_manoeuvre=on_manoeuvre)
-        changed = changes(reference, finer)
-        worst = max(changed, key=lambda name: abs(changed[name]))
-        found.append(
-            Bar(
-                f"timestep {1000 * timestep:.2f} ms",
-                "largest change of a figure",
-                abs(changed[worst]),
-                "%",
-                most=MOST_CHANGE,
-                reason=f"{worst}, of {len(changed)} figures",
-            )
-        )
+        found.append(worst_change(changes(reference, finer), timestep))
     return tuple(found)
+
+
+def worst_change(changed: Mapping[str, float], timestep: float) -> Bar:
+    """Hold the largest change against 5 %; one that is no number is larger than any.
+
+    Args:
+        changed: Changes by the name of the figure [%].
+        timestep: The smaller one [s].
+    """
+    worst = max(changed, key=lambda name: (math.isnan(changed[name]), abs(changed[name])))
+    return Bar(
+        f"timestep {1000 * timestep:.2f} ms",
+        "largest change of a figure",
+        abs(changed[worst]),
+        "%",
+        most=MOST_CHANGE,
+        reason=f"{worst}, of {len(changed)} figures",
+    )

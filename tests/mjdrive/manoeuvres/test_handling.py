@@ -126,6 +126,15 @@ def test_finer_timestep_that_changes_a_figure_is_found_out(driven):
     assert changes["stop from 50 km/h"] > convergence.MOST_CHANGE
 
 
+@pytest.mark.parametrize("order", [("sound", "broken"), ("broken", "sound")])
+def test_figure_that_is_no_number_at_the_finer_timestep_is_found_out(order):
+    changed = {"sound": 1.0, "broken": math.nan}
+    bar = convergence.worst_change({name: changed[name] for name in order}, 0.0025)
+    assert not bar.holds
+    assert bar.reason.startswith("broken")
+    assert convergence.worst_change({"sound": -1.0, "small": 0.5}, 0.0025).measured == 1.0
+
+
 def test_half_the_timestep_stops_and_turns_the_same(driven):
     finer = Rig.of_car(timestep=0.0025)
     stop = braking.brake(finer, 50)

@@ -14,6 +14,7 @@ from mjdrive.manoeuvres import (
     town_moves,
 )
 from mjdrive.manoeuvres.bars import failed
+from mjdrive.manoeuvres.cost import Cost
 from mjdrive.manoeuvres.energy import EnergyMeter
 from mjdrive.manoeuvres.ramming import Ram, RammingGround
 from mjdrive.manoeuvres.random_driving import RandomDrive
@@ -168,7 +169,23 @@ def test_cost_counts_the_physics_of_every_step(simulation: Simulation, monkeypat
     monkeypatch.setattr(mujoco, "mj_step", lambda *args: (steps.append(args[2]), step(*args)))
     measured = cost.measure(simulation.town)
     assert sum(steps) == 3 * 5 * 20  # once to record, twice to repeat
-    assert 0.0 < measured.undisturbed_ms <= measured.median_ms
+    assert 0.0 < measured.best_ms <= measured.median_ms
+
+
+def test_cost_is_the_mean_of_a_whole_round(simulation: Simulation, monkeypatch):
+    """The clock ticks 4 ms in the first of three rounds, 1 ms in the second, 3 ms in the third."""
+    monkeypatch.setattr(cost, "NUM_STEPS", 5)
+    monkeypatch.setattr(cost, "NUM_ROUNDS", 3)
+    ticks = iter([0.0, 0.004, 0.010, 0.011, 0.020, 0.023])
+    monkeypatch.setattr(cost.time, "thread_time", lambda: next(ticks))
+    measured = cost.measure(simulation.town)
+    assert measured == pytest.approx((1.0 / 5, 3.0 / 5))
+
+
+def test_slow_best_round_is_found_out():
+    assert failed(cost.bars(Cost(0.5, 0.9))) == ()
+    (bar,) = failed(cost.bars(Cost(0.7, 0.9)))
+    assert "0.90 ms" in bar.reason
 
 
 def test_rig_and_town_have_the_same_car(simulation: Simulation):
