@@ -102,6 +102,21 @@ def test_ctrl_c_leaves_whole_files_no_processes_and_a_collection_that_goes_on(
     )
 
 
+def test_sigterm_leaves_whole_files_no_processes_and_nothing_temporary(tmp_path: Path) -> None:
+    collecting = start(*WALK, "--out", "part", "--jobs", "2", cwd=tmp_path)
+    deadline = time.monotonic() + 200.0
+    while not list(tmp_path.glob("part/*.hdf5")):
+        assert collecting.poll() is None, collecting.communicate()
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    collecting.terminate()
+    _, complaint = collecting.communicate(timeout=60.0)
+    assert collecting.returncode == 143
+    assert "Traceback" not in complaint
+    assert is_gone(collecting.pid)
+    assert not list(tmp_path.glob("part/.*"))
+
+
 def manifest(
     town: Town, settings: CollectConfig, *, names: tuple[str, ...], car: str = "default"
 ) -> Manifest:

@@ -129,8 +129,25 @@ def test_digest_changes_with_any_episode(folder: Path) -> None:
 
 def test_remove_leaves_strangers_alone(folder: Path) -> None:
     (folder / "notes.txt").write_text("mine")
+    (folder / "unlisted.hdf5").write_bytes(b"mine")
     dataset.remove(folder)
-    assert [path.name for path in folder.iterdir()] == ["notes.txt"]
+    assert {path.name for path in folder.iterdir()} == {"notes.txt", "unlisted.hdf5"}
     (folder / "other.hdf5").write_bytes(b"not ours: there is no manifest")
     dataset.remove(folder)
     assert (folder / "other.hdf5").exists()
+
+
+def test_remove_deletes_nothing_outside_the_folder(folder: Path) -> None:
+    stranger = folder.parent / "stranger.hdf5"
+    stranger.write_bytes(b"mine")
+    entries = json.loads((folder / dataset.MANIFEST).read_text())["episodes"]
+    change(folder, episodes=[{**entries[0], "file": "../stranger.hdf5"}])
+    dataset.remove(folder)
+    assert stranger.exists()
+
+
+def test_remove_deletes_nothing_if_the_manifest_cannot_be_read(folder: Path) -> None:
+    (folder / dataset.MANIFEST).write_text("{")
+    with pytest.raises(DataError, match=r"delete '.*' yourself, or give another folder"):
+        dataset.remove(folder)
+    assert {path.name for path in folder.iterdir()} == {"manifest.json", "e0.hdf5", "e1.hdf5"}

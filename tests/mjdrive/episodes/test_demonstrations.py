@@ -1,9 +1,11 @@
 import dataclasses
 import hashlib
+import json
 import os
 import signal
 from pathlib import Path
 
+import casadi
 import numpy as np
 import pytest
 
@@ -11,7 +13,8 @@ from mjdrive.config import CollectConfig, DisturbanceConfig
 from mjdrive.datatypes import Route, Signal, Town
 from mjdrive.episodes import collector, dataset, demonstrations, workers
 from mjdrive.episodes.manifest import Manifest
-from mjdrive.errors import DataError, RouteError, WorkerError
+from mjdrive.errors import DataError, MjdriveError, RouteError, WorkerError
+from mjdrive.expert.solves import OUTCOMES
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import routing
 
@@ -44,9 +47,10 @@ def collect(
     *,
     jobs: int = 1,
     mix: bool = False,
+    overwrite: bool = False,
 ) -> Manifest:
     return demonstrations.collect(
-        town, routes, folder, settings=settings, seed=0, jobs=jobs, mix=mix
+        town, routes, folder, settings=settings, seed=0, jobs=jobs, mix=mix, overwrite=overwrite
     )
 
 
@@ -90,11 +94,13 @@ def test_files_do_not_depend_on_the_number_of_processes(
     assert set(told) == {"short-0", "short-1", "short-2"}
 
 
+@pytest.mark.parametrize("is_gone_at_hand_out", [False, True])
 def test_killed_process_is_told_and_the_rest_goes_on_later(
     town02: Town,
     routes: dict[str, Route],
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
+    is_gone_at_hand_out: bool,
 ) -> None:
     start = workers._start
 
@@ -102,12 +108,14 @@ def test_killed_process_is_told_and_the_rest_goes_on_later(
         process, connection = start(job)
         assert process.pid is not None
         os.kill(process.pid, signal.SIGKILL)
+        if is_gone_at_hand_out:
+            process.join()
         return process, connection
 
     monkeypatch.setattr(workers, "_start", start_and_kill)
     with pytest.raises(WorkerError, match=r"'short-\d' was ended from outside.*fewer --jobs"):
         collect(town02, routes, tmp_path, jobs=2)
-    assert set(digests(tmp_path)) == {"manifest.json"}
+    assert digests(tmp_path) == {}
     assert len(collect(town02, routes, tmp_path).episodes) == 2
 
 
@@ -178,8 +186,9 @@ def test_light_that_never_turns_green_is_refused_before_anything_is_driven(
     points = np.array([town.lanes[light.lane].centerline[0], after.centerline[-1]])
     past = {"past": routing.route_through(town, points)}
     for jobs in (1, 2):
-        with pytest.raises(RouteError, match=rf"Light '{light.id}' .* never turns green"):
-            collect(town, past, tmp_path / "data", jobs=jobs)
+        for overwrite in (False, True):
+            with pytest.raises(RouteError, match=rf"Light '{light.id}' .* never turns green"):
+                collect(town, past, tmp_path / "data", jobs=jobs, overwrite=overwrite)
     with pytest.raises(RouteError, match="never turns green"):
         collect(town, {}, tmp_path / "data", CollectConfig(random_walk_km=0.1))
     assert not (tmp_path / "data").exists()
@@ -197,3 +206,76 @@ def test_foreign_episodes_are_not_overwritten(
 def test_settings_of_an_expert_that_does_not_drive_are_left_out() -> None:
     assert "mpc" not in demonstrations.described(CollectConfig())
     assert "mpc" in demonstrations.described(CollectConfig(expert="mpc"))
+
+
+def test_overwriting_replaces_another_data_set_and_leaves_strangers_alone(
+    town02: Town, routes: dict[str, Route], tmp_path: Path
+) -> None:
+    collect(town02, routes, tmp_path / "new", CollectConfig(episodes=1))
+    collect(town02, routes, tmp_path / "old")
+    (tmp_path / "old/notes.hdf5").write_bytes(b"mine")
+    collect(town02, routes, tmp_path / "old", CollectConfig(episodes=1), overwrite=True)
+    assert (tmp_path / "old/notes.hdf5").read_bytes() == b"mine"
+    (tmp_path / "old/notes.hdf5").unlink()
+    assert digests(tmp_path / "old") == digests(tmp_path / "new")
+
+
+def test_overwriting_the_same_data_set_drives_it_again(
+    town02: Town, routes: dict[str, Route], tmp_path: Path
+) -> None:
+    told: list[int] = []
+    for _ in range(2):
+        demonstrations.collect(
+            town02,
+            routes,
+            tmp_path,
+            settings=TWICE,
+            seed=0,
+            overwrite=True,
+            on_late_solves=told.append,
+        )
+    assert told == [0] * 4
+
+
+def test_refused_overwriting_leaves_the_data_set_as_it_was(
+    town02: Town, routes: dict[str, Route], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    collect(town02, routes, tmp_path)
+    before = digests(tmp_path)
+    lights = {
+        name: dataclasses.replace(light, program=((Signal.RED, 30.0), (Signal.GREEN, 0.0)))
+        for name, light in town02.lights.items()
+    }
+    stuck = dataclasses.replace(town02, lights=lights)
+    hopeless = DisturbanceConfig(stop_rate_per_min=600.0, stop_brake=1.0)
+    monkeypatch.setattr(casadi, "has_nlpsol", lambda name: False)
+    for town, settings, message in (
+        (town02, CollectConfig(expert="mpc"), "lacks plug-ins for the MPC expert"),
+        (stuck, CollectConfig(random_walk_km=0.1), "never turns green"),
+        (town02, CollectConfig(disturbance=hopeless), "Expected it to arrive"),
+    ):
+        with pytest.raises(MjdriveError, match=message):
+            collect(town, routes, tmp_path, settings, overwrite=True)
+        assert digests(tmp_path) == before, message
+
+
+def test_solves_are_told_of_each_episode_and_not_of_an_expert_that_solves_nothing(
+    town02: Town, routes: dict[str, Route], tmp_path: Path
+) -> None:
+    for jobs in (1, 2):
+        collect(
+            town02,
+            routes,
+            tmp_path / str(jobs),
+            dataclasses.replace(TWICE, expert="mpc"),
+            jobs=jobs,
+        )
+    assert digests(tmp_path / "1") == digests(tmp_path / "2")
+    manifest, episodes = dataset.read_dataset(tmp_path / "1")
+    for entry, episode in zip(manifest.episodes, episodes, strict=True):
+        assert entry.solver == episode.metadata["solver"] == "fatrop"
+        assert entry.solves == json.loads(episode.metadata["solves"])
+        assert set(entry.solves) == set(OUTCOMES)
+        assert 0 < sum(entry.solves.values()) <= entry.steps
+    (plain,) = collect(town02, routes, tmp_path / "pid", CollectConfig()).episodes
+    assert (plain.solver, plain.solves) == ("", {})

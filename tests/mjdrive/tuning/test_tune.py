@@ -81,7 +81,21 @@ def test_gains_of_another_car_or_expert_or_format_are_refused(folder, tuning, tm
 
 def test_file_that_holds_no_gains_is_refused(tmp_path):
     (tmp_path / "no.json").write_text('{"steering": 2}')
-    with pytest.raises(ConfigError, match="steering"):
+    with pytest.raises(ConfigError, match=r"no\.json' holds no tuned settings.*steering"):
         gains.load(tmp_path / "no.json", PidConfig, cars.load())
     with pytest.raises(ConfigError, match="Cannot read settings"):
         gains.load(tmp_path / "missing.json", PidConfig, cars.load())
+
+
+def test_damaged_gains_are_refused_by_the_name_of_their_file(tuning, tmp_path):
+    path = tmp_path / "damaged.json"
+    values = gains.plain(tuning.gains)
+    settings = values["settings"]
+    for damaged, reason in (
+        ({name: value for name, value in values.items() if name != "car_digest"}, "car_digest"),
+        (values | {"settings": settings | {"target_speed": -1.0}}, "target_speed"),
+        (values | {"settings": settings | {"colour": 1.0}}, "colour"),
+    ):
+        path.write_text(json.dumps(damaged))
+        with pytest.raises(ConfigError, match=rf"damaged\.json.*{reason}"):
+            gains.load(path, PidConfig, cars.load())
