@@ -1,5 +1,7 @@
 """The mechanical energy of a scene, with what its tyres store."""
 
+import math
+
 import mujoco
 import numpy as np
 
@@ -28,3 +30,33 @@ class EnergyMeter:
         of_tyre_on_road = np.isin(contact.geom, self._on_road).all(axis=1)
         squeezed = np.minimum(contact.dist[of_tyre_on_road], 0.0)
         return float(self._data.energy.sum() + 0.5 * self._stiffness * (squeezed**2).sum())
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether at that time the car touched nothing but the road, and that with its tyres."""
+        return bool(np.isin(self._data.contact.geom, self._on_road).all())
+
+
+class GainWatch:
+    """Finds energy out of nowhere, also where it is less than what an impact before has taken.
+
+    An obstacle that is touched may give back what it stores, but no more than the car had before.
+
+    Attributes:
+        largest: Rise of the energy above the least complete one before it [J].
+    """
+
+    def __init__(self) -> None:
+        self.largest = 0.0
+        self._least = math.inf
+
+    def note(self, energy: float, *, is_complete: bool) -> None:
+        """Take the next reading.
+
+        Args:
+            energy: What the meter reads [J].
+            is_complete: Whether nothing else could store any.
+        """
+        self.largest = max(self.largest, energy - self._least)
+        if is_complete:
+            self._least = min(self._least, energy)

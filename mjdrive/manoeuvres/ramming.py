@@ -1,6 +1,5 @@
 """Driving into everything that stands in a town, at 50 km/h: no tunnelling, no energy gained, and then rest."""
 
-import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
@@ -8,9 +7,11 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from mjdrive.datatypes import Action, StaticObject, Town
+from mjdrive.datatypes import Action, Town
+from mjdrive.manoeuvres.barriers import with_barriers
 from mjdrive.manoeuvres.bars import Bar
-from mjdrive.manoeuvres.energy import EnergyMeter
+from mjdrive.manoeuvres.energy import EnergyMeter, GainWatch
+from mjdrive.manoeuvres.random_driving import upright
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.vehicle import engine
 from mjdrive.vehicle.cars import CarModel
@@ -24,10 +25,13 @@ GAP = 3.0  # between nose and obstacle at the start [m]
 NUM_HEADINGS = 16
 RAM_TIME = 1.0  # rolling into it, pedals free [s]
 BRAKE_TIME = 8.0  # then [s]
-BARRIER = (0.5, 6.0, 0.9)  # length along the lane, width across it, height [m]
 MOST_DEPTH = 0.3  # of hull or tyre in an obstacle; a crumple zone is longer [m]
-MOST_GAIN = 0.1  # of energy above that of the approach, over its kinetic energy [%]
+MOST_GAIN = 0.1  # of energy, over the kinetic energy of the approach [%]
 STANDS = 0.05  # [m/s]
+MOST_LEAN = 15.0  # of a car that stands, two wheels on a kerb or not [deg]
+LEAST_HEIGHT = (
+    -0.05
+)  # of its rear axle above where it is on unloaded tyres; lower it has sunk in [m]
 
 
 class Ram(NamedTuple):
@@ -36,8 +40,11 @@ class Ram(NamedTuple):
     Attributes:
         obstacle: Name of its geom.
         depth: How far hull or tyre went into it [m].
-        gain: Largest energy above that of the approach, over the kinetic energy of the approach [%].
+        gain: Largest rise of the energy, before, in and after the impact, over the kinetic energy of the approach [%];
+            see `energy.GainWatch`.
         final_speed: After the car has been braked [m/s].
+        final_lean: In any direction, then [deg].
+        final_height: Of its rear axle, then, above where it is on unloaded tyres [m].
         num_warnings: That MuJoCo gave [-].
         is_finite: Whether all numbers were finite to the end.
     """
@@ -46,30 +53,22 @@ class Ram(NamedTuple):
     depth: float
     gain: float
     final_speed: float
+    final_lean: float
+    final_height: float
     num_warnings: int
     is_finite: bool
 
-
-def with_barriers(town: Town) -> Town:
-    """Stand concrete barriers across some lanes, as towns of our own have no objects.
-
-    Args:
-        town: The town.
-    """
-    lanes = [
-        lane for lane in town.lanes.values() if lane.junction is None and len(lane.centerline) > 2
-    ]
-    barriers = []
-    for number, lane in enumerate(lanes[:: max(len(lanes) // PER_KIND, 1)]):
-        middle = len(lane.centerline) // 2
-        ahead = lane.centerline[middle] - lane.centerline[middle - 1]
-        ahead = ahead / np.hypot(*ahead)
-        along = 0.5 * BARRIER[0] * ahead
-        across = 0.5 * BARRIER[1] * np.array([-ahead[1], ahead[0]])
-        corners = [along - across, along + across, -along + across, -along - across]
-        outline = lane.centerline[middle] + np.array(corners)
-        barriers.append(StaticObject(f"barrier{number}", "barrier", outline, height=BARRIER[2]))
-    return dataclasses.replace(town, objects=(*town.objects, *barriers))
+    @property
+    def stands(self) -> bool:
+        """Whether the car has come to rest on its wheels, on the road or above; never if a figure is no number."""
+        figures = (self.depth, self.gain, self.final_speed, self.final_lean, self.final_height)
+        return (
+            self.is_finite
+            and all(math.isfinite(figure) for figure in figures)
+            and self.final_speed <= STANDS
+            and self.final_lean <= MOST_LEAN
+            and self.final_height >= LEAST_HEIGHT
+        )
 
 
 class RammingGround:
@@ -81,7 +80,7 @@ class RammingGround:
     """
 
     def __init__(self, town: Town, car: CarModel | None = None) -> None:
-        simulation = Simulation(with_barriers(town), car=car)
+        simulation = Simulation(with_barriers(town, PER_KIND), car=car)
         self._model, self._data, self._car = simulation.model, simulation.data, simulation.car
         self._meter = EnergyMeter(self._model, self._data, self._car)
         update_interval = simulation.config.car_update_interval
@@ -146,7 +145,8 @@ class RammingGround:
     def _drive_into(self, obstacle: str) -> Ram | None:
         geom, data = self._model.geom(obstacle).id, self._data
         warnings_before = sum(engine.warning_counts().values())
-        start, gain, depth = self._meter.read(), 0.0, 0.0
+        watch, depth = GainWatch(), 0.0
+        watch.note(self._meter.read(), is_complete=self._meter.is_complete)
         num_updates = round((RAM_TIME + BRAKE_TIME) / self._model.opt.timestep)
         has_hit = False
         for number in range(num_updates):
@@ -155,7 +155,7 @@ class RammingGround:
                 self._car.command(Action(-1.0 if braking else 0.0, 0.0))
                 self._car.update()
             mujoco.mj_step(self._model, data)
-            gain = max(gain, self._meter.read() - start)
+            watch.note(self._meter.read(), is_complete=self._meter.is_complete)
             touched, deepest = self._touch(geom)
             has_hit |= touched
             depth = max(depth, deepest)
@@ -164,8 +164,10 @@ class RammingGround:
         return Ram(
             obstacle=obstacle,
             depth=depth,
-            gain=100.0 * gain / (0.5 * self._car.parameters.mass * SPEED**2),
+            gain=100.0 * watch.largest / (0.5 * self._car.parameters.mass * SPEED**2),
             final_speed=float(np.hypot(*data.qvel[:2])),
+            final_lean=float(np.degrees(np.arccos(np.clip(upright(data), -1.0, 1.0)))),
+            final_height=float(data.qpos[2]),
             num_warnings=sum(engine.warning_counts().values()) - warnings_before,
             is_finite=bool(np.isfinite(data.qpos).all()),
         )
@@ -221,6 +223,10 @@ def bars(rams: Mapping[str, Sequence[Ram]]) -> tuple[Bar, ...]:
         )
         for kind, of_kind in rams.items()
     ]
+    if "kerb" in rams:
+        fallen = float(sum(not ram.stands for ram in rams["kerb"]))
+        reason = "driven over or onto: upright, not sunk in, at rest"
+        found.append(Bar(name, "kerbs that are the end", fallen, "kerbs", most=0.0, reason=reason))
     every = [ram for of_kind in rams.values() for ram in of_kind]
     broken = float(sum(not ram.is_finite for ram in every))
     warnings = float(sum(ram.num_warnings for ram in every))

@@ -6,6 +6,7 @@ import pytest
 
 from mjdrive.datatypes import Town
 from mjdrive.manoeuvres import (
+    barriers,
     cost,
     determinism,
     ramming,
@@ -15,14 +16,16 @@ from mjdrive.manoeuvres import (
 )
 from mjdrive.manoeuvres.bars import failed
 from mjdrive.manoeuvres.cost import Cost
-from mjdrive.manoeuvres.energy import EnergyMeter
+from mjdrive.manoeuvres.energy import EnergyMeter, GainWatch
 from mjdrive.manoeuvres.ramming import Ram, RammingGround
 from mjdrive.manoeuvres.random_driving import RandomDrive
 from mjdrive.manoeuvres.rig import GRAVITY, Rig
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town.lane_graph import lane_length
+from mjdrive.vehicle.car import Car
 
 TIGHTEST = 4
+GOOD_RAM = Ram("pole_1", 0.1, 0.0, 0.0, 0.5, -0.016, 0, is_finite=True)
 
 
 @pytest.fixture(scope="module")
@@ -106,21 +109,68 @@ def test_every_kind_of_obstacle_stops_the_car(ground):
     ],
 )
 def test_one_bad_impact_is_found_out(broken):
-    good = Ram("pole_1", 0.1, 0.0, 0.0, 0, is_finite=True)
-    assert failed(ramming.bars({"pole": [good]})) == ()
-    assert len(failed(ramming.bars({"pole": [good, good._replace(**broken)]}))) == 1
+    assert failed(ramming.bars({"pole": [GOOD_RAM]})) == ()
+    assert len(failed(ramming.bars({"pole": [GOOD_RAM, GOOD_RAM._replace(**broken)]}))) == 1
+
+
+@pytest.mark.parametrize(
+    ("readings", "gained"),
+    [
+        ([(10.0, True), (4.0, False), (9.0, False), (9.0, True)], 0.0),  # the obstacle gives back
+        ([(10.0, True), (4.0, False), (12.0, False), (3.0, True)], 2.0),  # more than it was given
+        ([(10.0, True), (4.0, False), (3.0, True), (4.5, True)], 1.5),  # coasting after the impact
+        ([(10.0, True), (3.0, True), (2.0, False), (8.0, True)], 5.0),  # second impact
+    ],
+)
+def test_energy_gained_after_an_impact_is_not_hidden_by_what_the_impact_took(readings, gained):
+    watch = GainWatch()
+    for energy, is_complete in readings:
+        watch.note(energy, is_complete=is_complete)
+    assert watch.largest == gained
+
+
+def test_push_after_the_impact_is_found_out(ground, monkeypatch):
+    """Something drives the car on while it rolls back from the pole; it stays slower than it came."""
+    update = Car.update
+
+    def pushed(car: Car) -> None:
+        update(car)
+        if 0.6 < car._data.time < 0.9:
+            velocity = car._data.qvel[:2]
+            car._data.xfrc_applied[car._body, :2] = 5000.0 * velocity / np.hypot(*velocity)
+
+    (pole,) = ground.obstacles("pole", 1)
+    honest = ground.ram(pole)
+    monkeypatch.setattr(Car, "update", pushed)
+    helped = ground.ram(pole)
+    assert honest.gain < ramming.MOST_GAIN < helped.gain
+    assert helped.gain < 100.0  # never above the energy of the approach
+
+
+@pytest.mark.parametrize(
+    "broken",
+    [
+        {"final_lean": 40.0},
+        {"final_height": -0.2},
+        {"final_height": float("nan")},
+        {"gain": float("nan")},
+    ],
+)
+def test_kerb_that_swallows_or_overturns_the_car_is_found_out(broken):
+    assert failed(ramming.bars({"kerb": [GOOD_RAM]})) == ()
+    found = failed(ramming.bars({"kerb": [GOOD_RAM, GOOD_RAM._replace(**broken)]}))
+    assert "kerbs that are the end" in [bar.figure for bar in found]
 
 
 def test_a_kind_that_was_never_hit_is_no_proof():
-    good = Ram("pole_1", 0.1, 0.0, 0.0, 0, is_finite=True)
-    assert [bar.figure for bar in failed(ramming.bars({"pole": [good], "tree": []}))] == [
+    assert [bar.figure for bar in failed(ramming.bars({"pole": [GOOD_RAM], "tree": []}))] == [
         "depth in tree, deepest of 0"
     ]
 
 
 def test_barriers_stand_across_lanes(town02):
-    town = ramming.with_barriers(town02)
-    assert len(town.objects) >= ramming.PER_KIND
+    town = barriers.with_barriers(town02, 8)
+    assert len(town.objects) >= 8
     for barrier in town.objects:
         x, y = barrier.outline.T
         area = 0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1))
