@@ -52,7 +52,7 @@ def _draw_acceleration(handling: Handling, figure: Figure) -> None:
     axes.annotate(
         f"100 km/h after {seconds:.1f} s",
         (seconds, 100.0),
-        xytext=(-8, 0),
+        xytext=(-50, 0),
         textcoords="offset points",
         ha="right",
         va="center",
