@@ -35,7 +35,7 @@ def test_runs_are_found_by_name_and_by_folder(tmp_path: Path) -> None:
 
 def test_unknown_name_is_refused_with_the_nearest(tmp_path: Path) -> None:
     make_run(tmp_path / "da-ibc")
-    with pytest.raises(UnknownNameError, match=r"Known: da-ibc, pid. Did you mean 'da-ibc'"):
+    with pytest.raises(UnknownNameError, match=r"Known: da-ibc, mpc, pid. Did you mean 'da-ibc'"):
         runs.find("da-icb", tmp_path)
 
 
