@@ -4,6 +4,7 @@ from pathlib import Path
 
 import rich_click as click
 
+from mjdrive.cli.options import car_option, gains_option
 from mjdrive.cli.solving import solver_options
 
 
@@ -55,20 +56,8 @@ from mjdrive.cli.solving import solver_options
     metavar="SCALE",
     help="Scale of pulses on throttle and brake, 0 to 2, as often as the paper's code has them. [default: 0]",
 )
-@click.option(
-    "--car",
-    "car_name",
-    default="default",
-    show_default=True,
-    metavar="NAME|FILE.xml",
-    help="A car that comes with mjdrive (default, mkz), or an MJCF file of your own.",
-)
-@click.option(
-    "--gains",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="Settings of the expert that `mjdrive tune` found for this car.",
-)
+@car_option
+@gains_option
 @click.option(
     "--seed",
     default=0,

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import rich_click as click
 
+from mjdrive.cli.options import car_option, gains_option
 from mjdrive.cli.solving import solver_options
 
 RUNS = Path("runs")
@@ -31,20 +32,8 @@ DRIVES = Path("drives")
     metavar="standard|quick|paper",
     help="How a trained policy chooses its actions. [default: as it was trained to]",
 )
-@click.option(
-    "--car",
-    "car_name",
-    default="default",
-    show_default=True,
-    metavar="NAME|FILE.xml",
-    help="A car that comes with mjdrive (default, mkz), or an MJCF file of your own.",
-)
-@click.option(
-    "--gains",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="Settings of the expert that `mjdrive tune` found for this car.",
-)
+@car_option
+@gains_option
 @solver_options
 @click.option(
     "--seed",

@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING
 
 import rich_click as click
 
+from mjdrive.cli.options import car_option
+
 if TYPE_CHECKING:
     from mjdrive.tuning.gains import Evidence
 
@@ -13,14 +15,7 @@ TUNINGS = Path("tunings")
 
 @click.command()
 @click.argument("expert", metavar="pid|mpc", default="pid")
-@click.option(
-    "--car",
-    "car_name",
-    default="default",
-    show_default=True,
-    metavar="NAME|FILE.xml",
-    help="A car that comes with mjdrive (default, mkz), or an MJCF file of your own.",
-)
+@car_option
 @click.option(
     "--town", "town_name", default="town01", show_default=True, metavar="NAME", help="Where to try."
 )
