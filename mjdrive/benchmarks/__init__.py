@@ -1,0 +1,1 @@
+"""How fast mjdrive is beside what its users would otherwise pick: `mjdrive bench`."""
