@@ -15,3 +15,7 @@ class CheckpointError(ModelsError):
 
 class TrainingError(ModelsError):
     """Demonstrations or settings with which no training can go on."""
+
+
+class HardwareError(ModelsError):
+    """A device or a number of processes that this machine does not give."""
