@@ -5,6 +5,7 @@ from typing import Any
 import rich_click as click
 
 import mjdrive
+from mjdrive.cli.bench import bench
 from mjdrive.cli.car import car
 from mjdrive.cli.collect import collect
 from mjdrive.cli.drive import drive
@@ -58,5 +59,5 @@ def main() -> None:
     """Run `mjdrive`."""
 
 
-for command in (collect, train, drive, tune, towns, car):
+for command in (collect, train, drive, tune, towns, car, bench):
     main.add_command(command)

@@ -1,0 +1,103 @@
+"""All benchmarks by name, and a run of some of them."""
+
+import importlib
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from mjdrive.benchmarks import machine
+from mjdrive.benchmarks.comparison import Plan, Row
+from mjdrive.benchmarks.machine import Machine
+from mjdrive.errors import UnknownNameError
+
+
+@dataclass(frozen=True, slots=True)
+class Benchmark:
+    """One entry of the suite, which may give several rows.
+
+    Attributes:
+        name: What `--only` takes.
+        work: What is measured.
+        entry: Where it is: module of this package, colon, function from a `Plan` to rows. It is imported when it runs.
+    """
+
+    name: str
+    work: str
+    entry: str
+
+    def measure(self, plan: Plan) -> tuple[Row, ...]:
+        """Measure it."""
+        module, _, function = self.entry.partition(":")
+        found = getattr(importlib.import_module(f"{__package__}.{module}"), function)
+        return tuple(found(plan))
+
+
+SUITE = (
+    Benchmark("start", "`mjdrive --help` and `import mjdrive`", "start_up:measure"),
+    Benchmark("step", "a control step against its physics alone", "simulation_step:measure"),
+    Benchmark("bev", "the bird's-eye view, a frame", "bev:measure"),
+    Benchmark("metadrive-84", "MetaDrive, view of 84 x 84 x 5", "rivals:metadrive_84"),
+    Benchmark("metadrive-192", "MetaDrive, view of 192 x 192 x 5", "rivals:metadrive_192"),
+    Benchmark("car-racing", "Gymnasium's CarRacing", "rivals:car_racing"),
+    Benchmark("intersection", "highway-env's intersection", "rivals:intersection"),
+)
+"""In the order of the table."""
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """What one run of the suite found.
+
+    Attributes:
+        machine: Where.
+        is_quick: Whether it was only a look.
+        rows: Of each benchmark, by its name.
+        seconds: What each benchmark took, by its name [s].
+    """
+
+    machine: Machine
+    is_quick: bool
+    rows: dict[str, tuple[Row, ...]]
+    seconds: dict[str, float]
+
+    @property
+    def all_rows(self) -> tuple[Row, ...]:
+        """The rows of all benchmarks in order."""
+        return tuple(row for rows in self.rows.values() for row in rows)
+
+
+def choose(names: Sequence[str]) -> tuple[Benchmark, ...]:
+    """Find benchmarks by name; all of them if none is named.
+
+    Raises:
+        UnknownNameError: If there is no such benchmark.
+    """
+    known = {benchmark.name: benchmark for benchmark in SUITE}
+    for name in names:
+        if name not in known:
+            raise UnknownNameError("benchmark", name, known)
+    return tuple(benchmark for benchmark in SUITE if not names or benchmark.name in names)
+
+
+def run(
+    benchmarks: Sequence[Benchmark],
+    plan: Plan,
+    *,
+    on_begin: Callable[[str], None] = lambda name: None,
+) -> Report:
+    """Measure one benchmark after the other.
+
+    Args:
+        benchmarks: Which.
+        plan: How much, and where things are.
+        on_begin: Told the name of each when it begins.
+    """
+    where = machine.describe()
+    rows: dict[str, tuple[Row, ...]] = {}
+    seconds: dict[str, float] = {}
+    for benchmark in benchmarks:
+        on_begin(benchmark.name)
+        begin = time.monotonic()
+        rows[benchmark.name] = benchmark.measure(plan)
+        seconds[benchmark.name] = time.monotonic() - begin
+    return Report(where, plan.quick, rows, seconds)
