@@ -75,12 +75,17 @@ class SolverError(MjdriveError):
 class MissingPackageError(MjdriveError):
     """A package that is not installed and that only some commands need."""
 
-    def __init__(self, package: str, *, wanted_for: str) -> None:
+    def __init__(self, package: str, *, wanted_for: str, extra: str = "") -> None:
+        what = f'--editable ".[{extra}]" in the checkout of mjdrive' if extra else package
         super().__init__(
             f"The package '{package}' is not installed; expected it for {wanted_for}. "
-            f"Install it with: pip install {package}"
+            f"Install it with: pip install {what}"
         )
 
 
 class WorkerError(MjdriveError):
     """A process that helped and ended before its work was done."""
+
+
+class ClusterError(MjdriveError):
+    """Machines that cannot be asked to work: nobody answers, or not from here."""
