@@ -42,9 +42,9 @@ KNOBS: dict[str, tuple[Knob, ...]] = {
         Knob("brake_gain", None, 0.1, 2.0),
     ),
     "mpc": (
-        Knob("offset_tolerance", None, 0.05, 1.0),
+        Knob("offset_tolerance", None, 0.05, 2.0),
         Knob("heading_tolerance", None, 0.05, 1.0),
-        Knob("steering_rate_tolerance", None, 0.1, 2.0),
+        Knob("steering_rate_tolerance", None, 0.03, 1.0),
         Knob("steering_jolt_tolerance", None, 0.2, 8.0),
         Knob("jerk_tolerance", None, 0.5, 10.0),
     ),
