@@ -5,6 +5,7 @@ import platform
 from collections.abc import Mapping
 
 import mjdrive
+from mjdrive.errors import WorkerError
 
 PREFIX = "version."
 """`Episode.metadata` names that begin so hold the version of a package."""
@@ -18,6 +19,28 @@ def versions() -> dict[str, str]:
         "python": platform.python_version(),
         **{name: importlib.metadata.version(name) for name in packages},
     }
+
+
+def require_same(expected: Mapping[str, str]) -> None:
+    """Refuse to work for a machine of other versions, whose bytes would differ.
+
+    Args:
+        expected: Versions of the machine that asked.
+
+    Raises:
+        WorkerError: If they differ from those here.
+    """
+    here = versions()
+    differing = sorted(name for name in expected if here.get(name) != expected[name])
+    if differing:
+        raise WorkerError(
+            f"The machine '{platform.node()}' has {_listed(here, differing)}; expected {_listed(expected, differing)}, as "
+            f"where the command was given. Install the same versions on all machines."
+        )
+
+
+def _listed(versions: Mapping[str, str], names: list[str]) -> str:
+    return ", ".join(f"{name} {versions.get(name, 'unknown')}" for name in names)
 
 
 def to_metadata(versions: Mapping[str, str]) -> dict[str, str]:

@@ -4,7 +4,13 @@ from pathlib import Path
 
 import rich_click as click
 
-from mjdrive.cli.options import car_option, gains_option
+from mjdrive.cli.options import (
+    Jobs,
+    car_option,
+    chosen_executor,
+    executor_options,
+    gains_option,
+)
 from mjdrive.cli.solving import solver_options
 
 
@@ -65,14 +71,7 @@ from mjdrive.cli.solving import solver_options
     type=click.IntRange(0, 2**32 - 1),
     help="Same seed, same files.",
 )
-@click.option(
-    "--jobs",
-    default=1,
-    show_default=True,
-    type=click.IntRange(min=1),
-    metavar="N",
-    help="Processes that drive at once; the files are the same.",
-)
+@executor_options
 @click.option(
     "--out",
     type=click.Path(path_type=Path),
@@ -96,7 +95,9 @@ def collect(
     car_name: str,
     gains: Path | None,
     seed: int,
-    jobs: int,
+    jobs: Jobs,
+    backend: str,
+    address: str | None,
     out: Path | None,
     overwrite: bool,
     mix: bool,
@@ -138,6 +139,7 @@ def collect(
     settings = presets.with_solver(settings, solver, fallback_solver)
     routes = lay_routes(town, waypoints, settings=settings)
     planned = plan(town, routes, settings=settings, seed=seed)
+    executor = chosen_executor(jobs, backend, address)
     folder = out or Path("data") / town.name
     late_solves: list[int] = []
     with ended_by_sigterm(), episode_bars(town.name, total=len(planned)) as report:
@@ -148,7 +150,7 @@ def collect(
             settings=settings,
             seed=seed,
             car=car,
-            jobs=jobs,
+            executor=executor,
             mix=mix,
             overwrite=overwrite,
             report=report,

@@ -1,8 +1,17 @@
 """Options that several commands share."""
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import rich_click as click
+
+if TYPE_CHECKING:
+    from mjdrive.execution.work import Executor
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+Jobs = int | Literal["auto"] | None
+"""Value of --jobs: None if it was not given [-]."""
 
 car_option = click.option(
     "--car",
@@ -21,3 +30,68 @@ gains_option = click.option(
     help="Settings of the expert that `mjdrive tune` found for this car.",
 )
 """Settings that an expert was tuned to."""
+
+
+def _read_jobs(ctx: click.Context, param: click.Parameter, value: str | None) -> Jobs:
+    """Read a number of at least 1, or "auto"."""
+    if value is None:
+        return None
+    if value == "auto":
+        return "auto"
+    try:
+        jobs = int(value)
+    except ValueError as error:
+        raise click.BadParameter(
+            f"'{value}' is no number; expected one of at least 1, or auto."
+        ) from error
+    if jobs < 1:
+        raise click.BadParameter(f"{jobs} is too small; expected at least 1, or auto.")
+    return jobs
+
+
+def executor_options(command: Command) -> Command:
+    """Give a command --jobs, --backend and --address; `chosen_executor` takes all three."""
+    for option in (
+        click.option(
+            "--address",
+            metavar="HOST:PORT",
+            help="Head of the Ray cluster. [default: the one that this machine is part of]",
+        ),
+        click.option(
+            "--backend",
+            default="local",
+            show_default=True,
+            metavar="local|ray|slurm",
+            help="Where to drive: processes of this machine, a Ray cluster that runs, or Slurm.",
+        ),
+        click.option(
+            "--jobs",
+            callback=_read_jobs,
+            metavar="N|auto",
+            help="Drives at once; the files are the same. auto: one a core of this machine, or what the cluster takes. "
+            "[default: 1 here, auto on a cluster]",
+        ),
+    ):
+        command = option(command)
+    return command
+
+
+def chosen_executor(jobs: Jobs, backend: str, address: str | None) -> "Executor":
+    """Make the executor that a user asks for.
+
+    Args:
+        jobs: Value of --jobs [-].
+        backend: Value of --backend.
+        address: Value of --address.
+
+    Raises:
+        ClusterError: If there is no such cluster.
+        ConfigError: If the address has no effect.
+        MissingPackageError: If the package for a cluster is not installed.
+        UnknownNameError: If there is no such backend.
+    """
+    from mjdrive.execution.executors import executor_for
+
+    if jobs is None:
+        jobs = 1 if backend == "local" else "auto"
+    return executor_for(jobs=None if jobs == "auto" else jobs, backend=backend, address=address)

@@ -4,7 +4,8 @@ import dataclasses
 import json
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
+from functools import cached_property
+from typing import Any, NamedTuple
 
 from mjdrive import versions
 from mjdrive.config import CollectConfig
@@ -39,9 +40,9 @@ class Driven(NamedTuple):
     late_solves: int
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Job:
-    """All that a process has to know to drive the episodes of a collection.
+@dataclass(frozen=True, eq=False)
+class Collecting:
+    """All that a process has to know to drive the episodes of a collection, wherever it runs.
 
     Attributes:
         town: Where to drive.
@@ -59,21 +60,40 @@ class Job:
     collection: Collection
     number: int
 
+    def begin(self) -> Callable[[PlannedEpisode, Callable[[int], None]], Driven]:
+        """Build the simulation and the expert; what comes back drives one episode.
+
+        Raises:
+            SolverError: If the solver of the MPC expert is missing.
+            WorkerError: If this is a machine with other versions than where the collection was asked for.
+        """
+        versions.require_same(self.collection.versions)
+        return self.collector.drive
+
+    @cached_property
+    def collector(self) -> "Collector":
+        """The simulation and the expert of this process."""
+        return Collector(self)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Other processes build a simulation of their own."""
+        return {name: value for name, value in vars(self).items() if name != "collector"}
+
 
 class Collector:
     """A simulation and an expert, ready to drive.
 
     Args:
-        job: What to drive.
+        work: What to drive.
 
     Raises:
         SolverError: If the solver of the MPC expert is missing.
     """
 
-    def __init__(self, job: Job) -> None:
-        self._job = job
-        self._simulation = Simulation(job.town, car=job.car)
-        self._expert = expert_of(job.settings, self._simulation)
+    def __init__(self, work: Collecting) -> None:
+        self._work = work
+        self._simulation = Simulation(work.town, car=work.car)
+        self._expert = expert_of(work.settings, self._simulation)
 
     def require_drivable(self, episodes: Iterable[PlannedEpisode]) -> None:
         """Refuse what can be seen to go wrong, before anything is driven.
@@ -84,10 +104,10 @@ class Collector:
         Raises:
             RouteError: If something stands at a start, the lanes end too soon, or a light on the way never turns green.
         """
-        town = self._job.town
+        town = self._work.town
         for episode in episodes:
             if episode.route:
-                route = self._job.routes[episode.route]
+                route = self._work.routes[episode.route]
                 require_green(town.lights[stop.light] for stop in stop_lines(town, route))
             else:
                 route = begin_walk(town, length=episode.length, seed=episode.seed).route
@@ -108,8 +128,8 @@ class Collector:
         if episode.route:
             driven = collect_route(
                 self._simulation,
-                self._job.routes[episode.route],
-                config=self._job.settings,
+                self._work.routes[episode.route],
+                config=self._work.settings,
                 seed=episode.seed,
                 expert=self._expert,
                 on_step=on_step,
@@ -118,7 +138,7 @@ class Collector:
             driven = collect_walk(
                 self._simulation,
                 length=episode.length,
-                config=self._job.settings,
+                config=self._work.settings,
                 seed=episode.seed,
                 expert=self._expert,
                 on_step=on_step,
@@ -130,16 +150,16 @@ class Collector:
             name=episode.name,
             file=f"{episode.name}.hdf5",
             content=content,
-            collection=self._job.number,
+            collection=self._work.number,
         )
         return Driven(entry, content, solves.late)
 
     def _described(self, episode: Episode) -> Episode:
         """Give an episode the description of the collection that it belongs to."""
-        collection = self._job.collection
+        collection = self._work.collection
         metadata = {
             **episode.metadata,
-            "town_digest": self._job.town.digest,
+            "town_digest": self._work.town.digest,
             "car": collection.car,
             "car_digest": collection.car_digest,
             "settings": json.dumps(collection.settings, sort_keys=True),

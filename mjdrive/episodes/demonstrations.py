@@ -4,7 +4,6 @@ import dataclasses
 import json
 from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import closing
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +11,12 @@ from mjdrive import config, versions
 from mjdrive.config import CollectConfig
 from mjdrive.datatypes import Route, Town
 from mjdrive.episodes import dataset
-from mjdrive.episodes.collector import Collector, Driven, Job
+from mjdrive.episodes.collector import Collecting, Driven
 from mjdrive.episodes.manifest import Collection, EpisodeEntry, Manifest
 from mjdrive.episodes.mixing import find_place
 from mjdrive.episodes.plan import PlannedEpisode, plan
-from mjdrive.episodes.workers import drive_in_processes
+from mjdrive.execution.serial import SerialExecutor
+from mjdrive.execution.work import Executor
 from mjdrive.files import write_atomically
 from mjdrive.vehicle import cars
 from mjdrive.vehicle.cars import CarModel
@@ -36,7 +36,7 @@ def collect(
     settings: CollectConfig,
     seed: int,
     car: CarModel | None = None,
-    jobs: int = 1,
+    executor: Executor | None = None,
     mix: bool = False,
     overwrite: bool = False,
     report: Report = lambda name, done, expected: None,
@@ -53,7 +53,7 @@ def collect(
         settings: Which routes, how often, and how they are driven.
         seed: The same seed gives the same files.
         car: Which car drives; the default one if None.
-        jobs: Processes that drive; the files do not depend on it.
+        executor: Where episodes are driven; here, one after the other, if None. The files do not depend on it.
         mix: Whether to add to a data set of the same town that was collected in another way.
         overwrite: Whether to replace a data set that is there, once the first episode has been driven.
         report: Told how far the collection is.
@@ -68,7 +68,7 @@ def collect(
         RouteError: If the town has no routes, or the expert cannot drive one.
         SolverError: If the solver of the MPC expert is missing.
         UnknownNameError: If a route is not one of the town's.
-        WorkerError: If one of several processes ended before it was done.
+        WorkerError: If a process or machine that drove was lost, or has other versions than this one.
     """
     car = car or cars.load()
     planned = plan(town, routes, settings=settings, seed=seed)
@@ -85,7 +85,7 @@ def collect(
         planned = tuple(
             dataclasses.replace(episode, name=f"{episode.name}-mix{number}") for episode in planned
         )
-    job = Job(town, routes, settings, car, collection, number)
+    work = Collecting(town, routes, settings, car, collection, number)
     finished = {
         entry.name: entry
         for entry in (() if overwrite else manifest.episodes)
@@ -96,7 +96,7 @@ def collect(
     missing = [episode for episode in planned if episode.name not in finished]
     if not missing:
         return manifest
-    with closing(_driven(job, missing, num_processes=jobs, report=report)) as driven:
+    with closing(_driven(work, missing, executor or SerialExecutor(), report)) as driven:
         is_described = False
         for entry, content, late_solves in driven:
             if not is_described:
@@ -122,25 +122,20 @@ def described(settings: CollectConfig) -> dict[str, Any]:
 
 
 def _driven(
-    job: Job, episodes: Sequence[PlannedEpisode], *, num_processes: int, report: Report
+    work: Collecting, episodes: Sequence[PlannedEpisode], executor: Executor, report: Report
 ) -> Generator[Driven]:
     """Check all that can be checked at once; the episodes are driven as they are asked for."""
-    collector = Collector(job)
-    collector.require_drivable(episodes)
+    work.collector.require_drivable(episodes)
 
-    def on_step(episode: PlannedEpisode, done: int) -> None:
+    def on_progress(episode: PlannedEpisode, done: int) -> None:
         # About half of the time is spent at lights and in turns.
-        expected = round(1.5 * episode.length / job.settings.pid.target_speed / _INTERVAL)
+        expected = round(1.5 * episode.length / work.settings.pid.target_speed / _INTERVAL)
         # A drive that takes longer than expected is always one step from its end.
         report(episode.name, done, max(expected, done + 1))
 
-    def drive_here() -> Generator[Driven]:
-        for episode in episodes:
-            yield collector.drive(episode, partial(on_step, episode))
-
-    if num_processes == 1 or len(episodes) == 1:
-        return drive_here()
-    return drive_in_processes(job, episodes, num_processes=num_processes, on_step=on_step)
+    with closing(executor.run(work, episodes, on_progress=on_progress)) as results:
+        for _, driven in results:
+            yield driven
 
 
 def _keep(

@@ -2,9 +2,10 @@
 
 import time
 from collections.abc import Callable, Generator, Sequence
-from typing import Protocol, TypeVar
+from typing import Protocol, TypeVar, runtime_checkable
 
 
+@runtime_checkable
 class Job(Protocol):
     """One thing to do: small, picklable and hashable, with all that decides its result."""
 
@@ -22,6 +23,7 @@ J_contra = TypeVar("J_contra", bound=Job, contravariant=True)
 R_co = TypeVar("R_co", covariant=True)
 
 
+@runtime_checkable
 class Work(Protocol[J_contra, R_co]):
     """What the jobs of a run have in common; it is pickled and sent to whoever works."""
 
@@ -29,6 +31,7 @@ class Work(Protocol[J_contra, R_co]):
         """Prepare once in each process what takes long; the callable then does one job after the other."""
 
 
+@runtime_checkable
 class Executor(Protocol):
     """Gets jobs done somewhere."""
 

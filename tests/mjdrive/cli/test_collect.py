@@ -29,7 +29,8 @@ PAPER = CollectConfig(disturbance=None)
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["--jobs", "0"], "'--jobs'.*x>=1"),
+        (["--jobs", "0"], "'--jobs'.*0 is too small; expected at least 1, or auto"),
+        (["--jobs", "many"], "'--jobs'.*'many' is no number; expected.*auto"),
         (["--episodes", "0"], "'--episodes'.*x>=1"),
         (["--noise", "loud"], "'--noise'.*'loud'"),
     ],

@@ -11,9 +11,11 @@ import pytest
 
 from mjdrive.config import CollectConfig, DisturbanceConfig
 from mjdrive.datatypes import Route, Signal, Town
-from mjdrive.episodes import collector, dataset, demonstrations, workers
+from mjdrive.episodes import collector, dataset, demonstrations
 from mjdrive.episodes.manifest import Manifest
 from mjdrive.errors import DataError, MjdriveError, RouteError, WorkerError
+from mjdrive.execution import pool
+from mjdrive.execution.executors import executor_for
 from mjdrive.expert.solves import OUTCOMES
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import routing
@@ -50,7 +52,14 @@ def collect(
     overwrite: bool = False,
 ) -> Manifest:
     return demonstrations.collect(
-        town, routes, folder, settings=settings, seed=0, jobs=jobs, mix=mix, overwrite=overwrite
+        town,
+        routes,
+        folder,
+        settings=settings,
+        seed=0,
+        executor=executor_for(jobs=jobs),
+        mix=mix,
+        overwrite=overwrite,
     )
 
 
@@ -87,7 +96,7 @@ def test_files_do_not_depend_on_the_number_of_processes(
         tmp_path / "three",
         settings=settings,
         seed=0,
-        jobs=3,
+        executor=executor_for(jobs=3),
         report=lambda name, done, expected: told.append(name),
     )
     assert digests(tmp_path / "one") == digests(tmp_path / "three")
@@ -102,17 +111,17 @@ def test_killed_process_is_told_and_the_rest_goes_on_later(
     monkeypatch: pytest.MonkeyPatch,
     is_gone_at_hand_out: bool,
 ) -> None:
-    start = workers._start
+    start = pool._start
 
-    def start_and_kill(job: collector.Job) -> object:
-        process, connection = start(job)
+    def start_and_kill(work: collector.Collecting) -> object:
+        process, connection = start(work)
         assert process.pid is not None
         os.kill(process.pid, signal.SIGKILL)
         if is_gone_at_hand_out:
             process.join()
         return process, connection
 
-    monkeypatch.setattr(workers, "_start", start_and_kill)
+    monkeypatch.setattr(pool, "_start", start_and_kill)
     with pytest.raises(WorkerError, match=r"'short-\d' was ended from outside.*fewer --jobs"):
         collect(town02, routes, tmp_path, jobs=2)
     assert digests(tmp_path) == {}
