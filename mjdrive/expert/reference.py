@@ -9,6 +9,7 @@ from jaxtyping import Float
 from mjdrive.config import PidConfig
 from mjdrive.datatypes import Route, Signal, Situation, Town, TrafficLight
 from mjdrive.errors import RouteError
+from mjdrive.town import signals
 
 
 class StopLine(NamedTuple):
@@ -70,10 +71,9 @@ def require_green(lights: Iterable[TrafficLight]) -> None:
         RouteError: If one of them never turns green.
     """
     for light in lights:
-        if not any(signal is Signal.GREEN and time > 0 for signal, time in light.program):
-            shown = ", ".join(f"{signal.name.lower()} {time:g} s" for signal, time in light.program)
+        if not signals.turns_green(light):
             raise RouteError(
-                f"Light '{light.id}' at the end of lane '{light.lane}' never turns green (it shows {shown}), so the expert "
+                f"Light '{light.id}' at the end of lane '{light.lane}' never turns green (it shows {signals.in_words(light)}), so the expert "
                 f"would wait there for ever. Expected a green that lasts: see 'lights' in town.json, or drive elsewhere."
             )
 

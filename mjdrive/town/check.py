@@ -3,14 +3,13 @@
 from collections.abc import Iterator
 
 import numpy as np
-import shapely
 
 from mjdrive.datatypes import Lane, Town
 from mjdrive.geometry import headings, wrap_angle
 from mjdrive.town.bends import tight_turns
 from mjdrive.town.findings import Finding, FindingKind, Severity
 from mjdrive.town.lane_graph import lane_length, onward, round_trips
-from mjdrive.town.lights import light_signals
+from mjdrive.town.light_findings import light_findings
 from mjdrive.town.obstructions import obstructions
 from mjdrive.town.opendrive.road_map import RoadMap
 
@@ -31,9 +30,6 @@ SHORTEST_LANE = 0.001
 TIGHTEST_TURN = 3.5
 """Smallest radius that the car can follow at the centre of the lane without cutting the bend [m]."""
 
-_SHARED_END = 0.1
-"""Stop lines of lanes side by side meet; what they share at their ends is no crossing [m]."""
-
 
 def check(town: Town, road_map: RoadMap | None = None) -> tuple[Finding, ...]:
     """Look for what would break a drive.
@@ -49,11 +45,9 @@ def check(town: Town, road_map: RoadMap | None = None) -> tuple[Finding, ...]:
     found += _tight_turns(town)
     found += _unreached(town)
     found += _on_lanes(town)
-    found += _crossed_stop_lines(town)
     found += _islands(town)
     found += _short_drives(town)
-    if road_map is not None:
-        found += _idle_lights(town, road_map)
+    found += light_findings(town, road_map)
     kinds = list(FindingKind)
     return tuple(sorted(found, key=lambda f: (-f.severity, kinds.index(f.kind))))
 
@@ -165,35 +159,6 @@ def _on_lanes(town: Town) -> list[Finding]:
     ]
 
 
-def _crossed_stop_lines(town: Town) -> list[Finding]:
-    lights = list(town.lights.values())
-    lines = [_without_ends(light.stop_line) for light in lights]
-    found = []
-    for first, second in _pairs(lines):
-        if lights[first].lane != lights[second].lane:
-            found.append(
-                Finding(
-                    FindingKind.CROSSED_STOP_LINES,
-                    Severity.ERROR,
-                    lights[first].id,
-                    f"Its stop line crosses that of light '{lights[second].id}': whoever passes one passes both.",
-                )
-            )
-    return found
-
-
-def _pairs(lines: list[shapely.LineString]) -> list[tuple[int, int]]:
-    geometries = np.array(lines, dtype=object)
-    first, second = shapely.STRtree(geometries).query(geometries, predicate="intersects")
-    return [(int(a), int(b)) for a, b in zip(first, second, strict=True) if a < b]
-
-
-def _without_ends(line: np.ndarray) -> shapely.LineString:
-    along = line[1] - line[0]
-    share = min(0.45, _SHARED_END / max(float(np.hypot(*along)), 1e-9))
-    return shapely.LineString([line[0] + share * along, line[1] - share * along])
-
-
 def _islands(town: Town) -> list[Finding]:
     """Find parts of the town that one can drive around in, but not to and fro between."""
     parts = sorted(
@@ -223,17 +188,3 @@ def _short_drives(town: Town) -> list[Finding]:
         "demonstrations are short, or none."
     )
     return [Finding(FindingKind.SHORT_DRIVES, Severity.WARNING, town.name, text)]
-
-
-def _idle_lights(town: Town, road_map: RoadMap) -> list[Finding]:
-    busy = {light.signal or light.id for light in town.lights.values()}
-    return [
-        Finding(
-            FindingKind.IDLE_LIGHT,
-            Severity.ERROR,
-            signal,
-            f"The light beside road '{road.id}' stops no lane into a junction. Check its <validity> and its place.",
-        )
-        for signal, (road, _) in light_signals(road_map).items()
-        if signal not in busy
-    ]

@@ -20,6 +20,7 @@ class FindingKind(StrEnum):
     DEAD_END = "dead end"
     ON_LANE = "thing on a lane"
     IDLE_LIGHT = "light that controls nothing"
+    NEVER_GREEN = "light that never turns green"
     CROSSED_STOP_LINES = "stop lines that cross"
     SHORT_DRIVES = "short drives only"
     KINK = "kink"

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from functools import lru_cache
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -22,37 +23,75 @@ def at(light: TrafficLight, time: float) -> Signal:
     Returns:
         The signal; it changes exactly at the start of each stretch of the program.
     """
-    position = (time + light.offset) % duration(light)
-    for signal, length in light.program:
-        if position < length:
-            return signal
-        position -= length
-    return light.program[-1][0]  # rounding may leave a hair beyond the last stretch
+    return Cycle.of(light).at(time)
 
 
-def all_at(town: Town, time: float) -> dict[str, Signal]:
-    """Tell what every light of a town shows at a time [s], by name."""
-    lights = _lights_in_step(town)
-    shown = [at(light, time) for light in lights.unlike]
-    return {name: shown[kind] for name, kind in lights.kind.items()}
+def turns_green(light: TrafficLight) -> bool:
+    """Tell whether a light ever lets anyone pass."""
+    return any(signal is Signal.GREEN and time > 0 for signal, time in light.program)
+
+
+def in_words(light: TrafficLight) -> str:
+    """What a light shows, and for how long each, as in "green 10 s, yellow 3 s, red 47 s"."""
+    return ", ".join(f"{signal.name.lower()} {time:g} s" for signal, time in light.program)
+
+
+class Cycle(NamedTuple):
+    """When a light shows what, ready to be asked often.
+
+    Attributes:
+        program: Signals and how long each is shown [s].
+        offset: Time into the cycle at clock zero [s].
+        duration: Of all of it [s].
+    """
+
+    program: tuple[tuple[Signal, float], ...]
+    offset: float
+    duration: float
+
+    @staticmethod
+    def of(light: TrafficLight) -> "Cycle":
+        """The cycle of a light; lights with equal ones change together."""
+        return Cycle(light.program, light.offset, duration(light))
+
+    def at(self, time: float) -> Signal:
+        """Tell what the light shows at a time on the clock of the lights [s]; see `at`."""
+        position = (time + self.offset) % self.duration
+        for signal, length in self.program:
+            if position < length:
+                return signal
+            position -= length
+        return self.program[-1][0]  # rounding may leave a hair beyond the last stretch
+
+
+def all_at(town: Town, time: float) -> Mapping[str, Signal]:
+    """Tell what every light of a town shows at a time [s], by name.
+
+    Returns:
+        What is shown; the same object while it lasts.
+    """
+    return _by_name(town, tuple([cycle.at(time) for cycle in _lights_in_step(town).unlike]))
+
+
+@lru_cache(maxsize=256)
+def _by_name(town: Town, shown: tuple[Signal, ...]) -> Mapping[str, Signal]:
+    """What every light shows, from what each kind of them does."""
+    kinds = _lights_in_step(town).kind
+    return MappingProxyType({name: shown[kind] for name, kind in kinds.items()})
 
 
 class _LightsInStep(NamedTuple):
-    """Lights that change together: one of each kind, and which kind every light is of, by name."""
+    """Lights that change together: the cycle of each kind, and which kind every light is of, by name."""
 
-    unlike: tuple[TrafficLight, ...]
+    unlike: tuple[Cycle, ...]
     kind: Mapping[str, int]
 
 
 @lru_cache(maxsize=4)
 def _lights_in_step(town: Town) -> _LightsInStep:
-    programs = {name: (light.program, light.offset) for name, light in town.lights.items()}
-    kinds = {program: index for index, program in enumerate(dict.fromkeys(programs.values()))}
-    first: dict[int, TrafficLight] = {}
-    for name, program in programs.items():
-        first.setdefault(kinds[program], town.lights[name])
-    unlike = tuple(first.values())
-    return _LightsInStep(unlike, {name: kinds[program] for name, program in programs.items()})
+    cycles = {name: Cycle.of(light) for name, light in town.lights.items()}
+    kinds = {cycle: index for index, cycle in enumerate(dict.fromkeys(cycles.values()))}
+    return _LightsInStep(tuple(kinds), {name: kinds[cycle] for name, cycle in cycles.items()})
 
 
 def duration(light: TrafficLight) -> float:

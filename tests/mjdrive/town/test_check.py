@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mjdrive.datatypes import Town
+from mjdrive.datatypes import Signal, Town
 from mjdrive.town import library, opendrive, routing, surface
 from mjdrive.town.check import Finding, FindingKind, Severity, check
 from mjdrive.town.lane_index import LaneIndex
@@ -120,6 +120,15 @@ def test_a_light_that_stops_no_lane_is_found(road_map: RoadMap) -> None:
     changed = replace(road_map, roads={**road_map.roads, "1": road})
     (finding,) = check(_build(changed), changed)
     assert (finding.kind, finding.where) == (FindingKind.IDLE_LIGHT, "stray")
+    assert finding.breaks_a_drive
+
+
+def test_a_light_that_never_turns_green_is_found(ladder: Town) -> None:
+    light = next(iter(ladder.lights.values()))
+    red = replace(light, program=((Signal.GREEN, 0.0), (Signal.YELLOW, 3.0), (Signal.RED, 27.0)))
+    (finding,) = check(replace(ladder, lights={**ladder.lights, light.id: red}))
+    assert (finding.kind, finding.where) == (FindingKind.NEVER_GREEN, light.id)
+    assert finding.text.startswith("It shows green 0 s, yellow 3 s, red 27 s: nobody ever passes")
     assert finding.breaks_a_drive
 
 
