@@ -9,6 +9,7 @@ Method = Literal["bc-beta", "ibc", "da-ibc"]
 StateInput = Literal["speed", "previous_acceleration", "previous_steering"]
 DensityKind = Literal["joint", "product"]
 Choice = Literal["sample", "argmin"]
+Precision = Literal["auto", "float32", "bfloat16"]
 
 METHODS: tuple[Method, ...] = get_args(Method)
 STATE_INPUTS: tuple[StateInput, ...] = get_args(StateInput)
@@ -195,11 +196,13 @@ class SamplerConfig:
         kind: Which sampler; the settings of the other lie idle.
         dfo: Derivative-free search.
         grid: Exact choice on a grid.
+        precision: Number format of the hidden layers that score candidates; "auto" takes bfloat16 where the machine is fast at it, and float32 elsewhere.
     """
 
     kind: Literal["dfo", "grid"] = "dfo"
     dfo: DfoConfig = DfoConfig()
     grid: GridConfig = GridConfig()
+    precision: Precision = "auto"
 
 
 @dataclasses.dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ from torch import Tensor, nn
 from models.config import DfoConfig
 from models.interfaces import ACTION_SIZE
 from models.negatives import uniform_actions
-from models.samplers.dfo import draw_categorical, pick
+from models.samplers.draws import draw_ascending, pick
 
 
 class ExpertActions(nn.Module):
@@ -36,14 +36,14 @@ class ExpertActions(nn.Module):
             generator: Source of chance, on the device of the actions.
 
         Returns:
-            One independent set an observation [-].
+            One independent set an observation, in the order of the expert actions [-].
         """
         if config.start == "uniform":
             return uniform_actions(num_observations, config.num_samples, generator=generator)
         assert len(self.actions) > 0, "prepare() has not been called"
         # The text of the paper weighs by 1 / KDE, its Algorithm 1 by KDE.
         weights = self.density if config.start == "kde" else self.density.reciprocal()
-        drawn = draw_categorical(
+        drawn = draw_ascending(
             weights.expand(num_observations, -1), config.num_samples, generator=generator
         )
         return pick(self.actions.expand(num_observations, -1, -1), drawn)

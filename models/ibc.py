@@ -8,6 +8,7 @@ from torch.nn import functional as F  # noqa: N812
 from models.config import LearnerConfig
 from models.encoder import Encoder, drop_previous_action
 from models.energy import EnergyHead
+from models.energy_scoring import EnergyScorer
 from models.expert_actions import ExpertActions
 from models.interfaces import Batch, Learner, weighted_mean
 from models.negatives import uniform_actions
@@ -93,9 +94,9 @@ class IbcLearner(Learner):
             actions: Candidates of each observation, or one set (A = 1) that all observations share [-].
 
         Returns:
-            Energies [nats].
+            Energies, computed in float32 whatever the settings say [nats].
         """
-        return self.energy(self.encoder(bev, state), actions)
+        return EnergyScorer(self.energy, self.encoder(bev, state), "float32")(actions)
 
     @torch.no_grad()
     def act(
@@ -105,13 +106,9 @@ class IbcLearner(Learner):
         *,
         generator: torch.Generator,
     ) -> Float[Tensor, "B 2"]:
-        """Encode once, then let the sampler of the settings choose."""
-        features = self.encoder(bev, state)
-
-        def energy(candidates: Tensor) -> Tensor:
-            return self.energy(features, candidates)
-
+        """Encode once, in float32, then let the sampler of the settings choose."""
         settings = self.config.sampler
+        energy = EnergyScorer(self.energy, self.encoder(bev, state), settings.precision)
         if settings.kind == "grid":
             return grid.choose(energy, settings.grid, generator=generator)
         start = self.experts.draw(len(bev), settings.dfo, generator=generator)

@@ -14,7 +14,7 @@ from models.density import action_density, inverse_weights
 from models.errors import CheckpointError, TrainingError
 from models.interfaces import Demonstrations, Learner
 from models.progress import EpochReport, StepReport, from_lines, to_lines
-from models.samplers.dfo import draw_categorical
+from models.samplers.draws import draw_categorical
 from models.schedule import learning_rate
 from models.training_state import TrainingState
 

@@ -4,10 +4,11 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import torch
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Bool, Float
 from torch import Tensor
 
 from models.config import DfoConfig
+from models.samplers.draws import draw_ascending, draw_categorical, pick
 
 EnergyFunction = Callable[[Tensor], Tensor]
 """Candidates (B, N, 2) [-], or (1, N, 2) shared by all observations, to energies (B, N) [nats]."""
@@ -27,32 +28,6 @@ class DfoResult(NamedTuple):
     energies: Tensor
 
 
-def draw_categorical(
-    probabilities: Float[Tensor, "B N"], num_draws: int, *, generator: torch.Generator
-) -> Int[Tensor, "B S"]:
-    """Draw indices with replacement by inverting the cumulative sum; quicker than torch.multinomial for many draws.
-
-    Args:
-        probabilities: Non-negative weights of the indices; they need not sum to one [-].
-        num_draws: Draws for each row.
-        generator: Source of chance, on the device of the probabilities.
-
-    Returns:
-        Indices into the second axis.
-    """
-    cumulative = probabilities.double().cumsum(dim=1)
-    shape = (len(probabilities), num_draws)
-    unit = torch.rand(shape, generator=generator, device=probabilities.device, dtype=torch.float64)
-    # side="right" skips indices of probability zero; the clamp meets a draw at the very end.
-    drawn = torch.searchsorted(cumulative, unit * cumulative[:, -1:], right=True)
-    return drawn.clamp(max=probabilities.shape[1] - 1)
-
-
-def pick(candidates: Float[Tensor, "B N 2"], indices: Int[Tensor, "B S"]) -> Float[Tensor, "B S 2"]:
-    """Candidates [-] at some indices of each row."""
-    return torch.take_along_dim(candidates, indices[..., None], dim=1)
-
-
 def search(
     energy: EnergyFunction,
     start: Float[Tensor, "B N 2"],
@@ -61,6 +36,8 @@ def search(
     generator: torch.Generator,
 ) -> DfoResult:
     """Search for actions of low energy.
+
+    The candidates are a population without order: resampling returns them sorted by where they came from.
 
     Args:
         energy: Scores candidates.
@@ -81,10 +58,10 @@ def search(
     energies = energy(candidates)
     for resampling in range(1, config.iterations):
         probabilities = torch.softmax(-energies / temperature, dim=1)
-        drawn = draw_categorical(probabilities, candidates.shape[1], generator=generator)
+        drawn = draw_ascending(probabilities, candidates.shape[1], generator=generator)
         kept = pick(candidates, drawn)
         noise = torch.randn(kept.shape, generator=generator, device=kept.device)
-        candidates = (kept + sigma * noise).clamp(-config.bound, config.bound)
+        candidates = noise.mul_(sigma).add_(kept).clamp_(-config.bound, config.bound)
         energies_kept, energies = energies.gather(1, drawn), energy(candidates)
         if config.temper:
             rise = (energies - energies_kept) * resampling / temperature

@@ -5,7 +5,8 @@ from jaxtyping import Float
 from torch import Tensor
 
 from models.config import GridConfig
-from models.samplers.dfo import EnergyFunction, draw_categorical
+from models.samplers.dfo import EnergyFunction
+from models.samplers.draws import draw_categorical
 
 
 def action_grid(points: int, *, device: torch.device | None = None) -> Float[Tensor, "N 2"]:

@@ -5,6 +5,7 @@ import pytest
 import torch
 from torch import nn
 
+from models import ibc
 from models.config import GridConfig, SamplerConfig
 from models.da_ibc import DaIbcLearner
 from models.density import action_density
@@ -87,7 +88,7 @@ def test_both_sides_of_a_fork_are_kept_and_the_middle_is_not(kind, small_config,
     assert 0.4 < (steering > 0).float().mean() < 0.9
 
 
-def test_both_samplers_of_a_learner_choose_from_the_same_bowl(small_config, generator):
+def test_both_samplers_of_a_learner_choose_from_the_same_bowl(small_config, generator, monkeypatch):
     config = small_config("ibc")
     sampler = config.sampler
     config = dataclasses.replace(
@@ -101,9 +102,11 @@ def test_both_samplers_of_a_learner_choose_from_the_same_bowl(small_config, gene
     )
     learner = IbcLearner(config)
     learner.encoder = Constant()
-    learner.energy.forward = lambda features, actions: (
-        100 * (actions - torch.tensor([0.25, -0.5])).square().sum(dim=-1)
-    )
+
+    def bowl(actions):
+        return 100 * (actions - torch.tensor([0.25, -0.5])).square().sum(dim=-1)
+
+    monkeypatch.setattr(ibc, "EnergyScorer", lambda head, features, precision: bowl)
     by_search = learner.act(*unseen(1), generator=generator)
     learner.config = dataclasses.replace(
         config, sampler=dataclasses.replace(config.sampler, kind="grid")
