@@ -4,7 +4,13 @@ from pathlib import Path
 
 import rich_click as click
 
-from mjdrive.cli.options import car_option, gains_option
+from mjdrive.cli.options import (
+    Jobs,
+    car_option,
+    chosen_executor,
+    executor_options,
+    gains_option,
+)
 from mjdrive.cli.solving import solver_options
 
 RUNS = Path("runs")
@@ -43,10 +49,18 @@ DRIVES = Path("drives")
     help="Same seed, same drive.",
 )
 @click.option(
+    "--episodes",
+    "num_episodes",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Make N drives, each with a seed of its own that --seed decides, and average them.",
+)
+@executor_options
+@click.option(
     "--out",
     type=click.Path(path_type=Path),
     metavar="DIR",
-    help="New folder for the drive. [default: drives/<date and time>]",
+    help="New folder for the drive; with --episodes, one whose drives to go on with, too. [default: drives/<date and time>]",
 )
 def drive(
     *,
@@ -59,17 +73,23 @@ def drive(
     solver: str | None,
     fallback_solver: str | None,
     seed: int,
+    num_episodes: int | None,
+    jobs: Jobs,
+    backend: str,
+    address: str | None,
     out: Path | None,
 ) -> None:
     """Drive freely through a town, from a random place and with no route.
 
-    Writes the episode, its figures and two pictures.
+    Writes the episode, its figures and two pictures. With --episodes, each drive gets a folder of its own, and mean and
+    standard deviation of the figures are written beside them; an interrupted command can be run again and goes on.
     """
     import datetime
 
     from mjdrive.cli.console import closing_table, progress_bars
     from mjdrive.cli.driver import find_driver
     from mjdrive.evaluation import report
+    from mjdrive.simulation.simulation import Simulation
     from mjdrive.town import library
     from mjdrive.vehicle import cars
 
@@ -80,13 +100,27 @@ def drive(
         driver = driver.tuned(gains, car)
     driver = driver.solved_by(solver, fallback_solver)
     folder = out or report.new_folder(DRIVES, datetime.datetime.now())
+    if num_episodes is not None:
+        from mjdrive.cli.drives import drive_episodes
+
+        drive_episodes(
+            driver,
+            town,
+            folder,
+            car=car,
+            num_steps=num_steps,
+            num_episodes=num_episodes,
+            seed=seed,
+            executor=chosen_executor(jobs, backend, address),
+        )
+        return
+    _require_alone(jobs, backend, address)
     report.require_new(folder)
     late_solves: list[int] = []
     with progress_bars() as bars:
         task = bars.add_task(f"{driver.name} in {town.name}", total=num_steps)
         episode = driver.drive(
-            town,
-            car=car,
+            Simulation(town, car=car),
             num_steps=num_steps,
             seed=seed,
             on_step=lambda done: bars.update(task, completed=done),
@@ -115,6 +149,17 @@ def drive(
         if driver.pilot is not None
         else f"mjdrive drive --town {town.name} --policy {driver.name} --seed {seed + 1}",
     )
+
+
+def _require_alone(jobs: Jobs, backend: str, address: str | None) -> None:
+    """Refuse options for several drives where there is one."""
+    from mjdrive.errors import ConfigError
+
+    if jobs not in (None, 1) or backend != "local" or address is not None:
+        raise ConfigError(
+            "--jobs, --backend and --address share out several drives; expected --episodes N with them. "
+            "A single drive is made here, one step after the other."
+        )
 
 
 def _offset(rms: float | None) -> str:

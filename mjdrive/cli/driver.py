@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from mjdrive import config, versions
 from mjdrive.cli.solving import late_row, solve_rows
-from mjdrive.config import CollectConfig
+from mjdrive.config import CollectConfig, SimulationConfig
 from mjdrive.datatypes import Episode, Town
 from mjdrive.episodes import driving, presets, store
 from mjdrive.errors import ConfigError
@@ -93,33 +93,20 @@ class Driver:
         rows = solve_rows([episode.metadata[SOLVER]], [solves])
         return rows | late_row(late, self.expert.mpc.late_after)
 
-    def drive(
-        self,
-        town: Town,
-        *,
-        car: CarModel,
-        num_steps: int,
-        seed: int,
-        on_step: Callable[[int], None],
-        on_late_solves: Callable[[int], None] | None = None,
-    ) -> Episode:
-        """Drive freely, from a random place.
+    def metadata(self, town: Town, car: CarModel, num_steps: int) -> dict[str, str]:
+        """Versions, digests and settings that decide a drive, all but its seed.
 
         Args:
-            town: Town to drive in.
-            car: Which car it drives.
+            town: Where it is driven.
+            car: Which car is driven.
             num_steps: Control steps [-].
-            seed: Same seed, same drive.
-            on_step: Told the number of control steps done.
-            on_late_solves: Told at the end how many solves of an expert took long on this machine.
         """
-        simulation = Simulation(town, car=car)
         settings = {
             "num_steps": num_steps,
-            "simulation": json.loads(config.to_json(simulation.config)),
+            "simulation": json.loads(config.to_json(SimulationConfig())),
             "policy": json.loads(self.settings),
         }
-        metadata = {
+        return {
             "town_digest": town.digest,
             "car": car.name,
             "car_digest": car.digest,
@@ -128,6 +115,26 @@ class Driver:
             "settings": json.dumps(settings, sort_keys=True),
             **versions.to_metadata(versions.versions()),
         }
+
+    def drive(
+        self,
+        simulation: Simulation,
+        *,
+        num_steps: int,
+        seed: int,
+        on_step: Callable[[int], None],
+        on_late_solves: Callable[[int], None] | None = None,
+    ) -> Episode:
+        """Drive freely, from a random place.
+
+        Args:
+            simulation: World to drive in; it is reset.
+            num_steps: Control steps [-].
+            seed: Same seed, same drive.
+            on_step: Told the number of control steps done.
+            on_late_solves: Told at the end how many solves of an expert took long on this machine.
+        """
+        metadata = self.metadata(simulation.town, simulation.car_model, num_steps)
         if self.pilot is None:
             assert self.expert is not None, "a driver is a trained policy or an expert"
             return driving.drive_expert(

@@ -10,6 +10,12 @@ from mjdrive.errors import DataError
 from mjdrive.evaluation import figures, timelines
 from mjdrive.evaluation.metrics import DriveSummary, summarise
 
+EPISODE = "episode.hdf5"
+"""The drive itself."""
+
+SUMMARY = "summary.json"
+"""The figures of a drive, written after all else."""
+
 
 def write_drive(episode: Episode, town: Town, folder: Path) -> DriveSummary:
     """Write a drive, its pictures and, last of all, its figures.
@@ -27,10 +33,10 @@ def write_drive(episode: Episode, town: Town, folder: Path) -> DriveSummary:
     """
     require_new(folder)
     summary = summarise(episode, town)
-    store.write(episode, folder / "episode.hdf5")
+    store.write(episode, folder / EPISODE)
     figures.draw_trajectory(episode, town, folder / "trajectory.png")
     timelines.draw_actions(episode, town, folder / "actions.png")
-    config.write_json(summary, folder / "summary.json")
+    config.write_json(summary, folder / SUMMARY)
     return summary
 
 
