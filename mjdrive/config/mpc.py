@@ -1,6 +1,7 @@
 """Frozen settings of the MPC expert: what it weighs, what limits it, and who solves its problem."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 from mjdrive.config.json_files import require
 
@@ -39,7 +40,9 @@ class MpcConfig:
         fallback_solver: Solver to take where casadi lacks a plug-in of the first, or None to refuse.
         max_iterations: Iterations of the solver; a plan that needs more counts as failed [-].
         tolerance: Error of the conditions of optimality at which a plan counts as found [-].
-        late_after: A solve that takes longer than this is counted as late, no more [s].
+        late_after: A solve that takes longer than this is counted as late [s].
+        late_plan: What is driven when a plan came late: "plan" takes it all the same, so that the same seed gives the same bytes on
+            any load; "pid" leaves the decision to the PID, as a controller in a car would have to.
     """
 
     horizon: float = 2.0
@@ -69,6 +72,7 @@ class MpcConfig:
     max_iterations: int = 30
     tolerance: float = 1e-4
     late_after: float = 0.05
+    late_plan: Literal["plan", "pid"] = "plan"
 
     def __post_init__(self) -> None:
         for name in (

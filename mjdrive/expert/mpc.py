@@ -55,8 +55,8 @@ class _Plan(NamedTuple):
 class MpcExpert:
     """A `Policy[Situation]`: knows the route and the lights, and a model of its car.
 
-    Its solver is bound by iterations, never by the clock, so the same seed gives the same bytes on any load; a solve that
-    took long is counted (`solves.late`), no more.
+    Its solver is bound by iterations, never by the clock, so the same seed gives the same bytes on any load. A solve that
+    took long is counted (`solves.late`); only with `MpcConfig.late_plan = "pid"` is it met by the PID.
 
     Attributes:
         config: Weights, limits and solver.
@@ -204,7 +204,8 @@ class MpcExpert:
             self._problem.parameters(start, goal),
             self._problem.bounds(start, full_throttle=full_throttle),
         )
-        if solution.status is not SolveStatus.SOLVED:
+        is_too_late = solution.is_late and self.config.late_plan == "pid"
+        if solution.status is not SolveStatus.SOLVED or is_too_late:
             return None
         following = self._problem.state(solution.variables, 1)
         self._plan = _Plan(view.time, solution.variables, following)
