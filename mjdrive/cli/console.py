@@ -137,3 +137,20 @@ def closing_table(title: str, rows: Mapping[str, object], *, next_command: str) 
     console.print(table)
     console.print("Next: ", end="")
     console.print(next_command, style="bold cyan", markup=False, highlight=False, soft_wrap=True)
+
+
+def sections_table(sections: Mapping[str, Mapping[str, str]]) -> None:
+    """Show facts by subject.
+
+    Args:
+        sections: Names and values of each subject.
+    """
+    table = Table(show_header=False)
+    table.add_column(style="bold cyan", no_wrap=True)
+    table.add_column(style="bold", no_wrap=True)
+    table.add_column(overflow="fold")
+    for subject, facts in sections.items():
+        for index, (name, value) in enumerate(facts.items()):
+            table.add_row("" if index else subject, name, Text(value))
+        table.add_section()
+    Console().print(table)
