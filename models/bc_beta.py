@@ -7,8 +7,8 @@ from torch.distributions import Beta
 from torch.nn import functional as F  # noqa: N812
 
 from models.config import LearnerConfig
-from models.encoder import HIDDEN_SIZE, Encoder, drop_previous_action
-from models.interfaces import ACTION_SIZE, Batch, Learner, weighted_mean
+from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_action
+from models.interfaces import ACTION_SIZE, Batch, Chance, Learner, weighted_mean
 
 # Softplus underflows to zero, where the Beta density does not exist.
 SMALLEST_CONCENTRATION = 1e-6
@@ -72,17 +72,25 @@ class BcBetaLearner(Learner):
         )  # (B, 2) each
         return Beta(alpha, beta, validate_args=False)
 
+    def draw(self, actions: Float[Tensor, "B 2"], *, generator: torch.Generator) -> Chance:
+        """Draw dropout, and noise on the labels where the settings ask for it."""
+        probability = self.config.network.state_dropout
+        kept = draw_dropout(len(actions), probability, generator=generator)
+        if self.config.beta.label_noise == 0:
+            return Chance(keeps_previous=kept)
+        noise = torch.randn(actions.shape, generator=generator, device=actions.device)
+        return Chance(keeps_previous=kept, label_noise=self.config.beta.label_noise * noise)
+
     def loss(
-        self, batch: Batch, *, weights: Float[Tensor, " B"] | None, generator: torch.Generator
+        self, batch: Batch, chance: Chance, *, weights: Float[Tensor, " B"] | None
     ) -> Float[Tensor, ""]:
         """Mean negative log-likelihood of the expert actions, less the entropy bonus [nats]."""
         settings = self.config.beta
-        state = drop_previous_action(batch.state, self.config.network.state_dropout, generator)
+        state = drop_previous_action(batch.state, chance.keeps_previous)
         distribution = self.distribution(batch.bev, state)
         actions = batch.actions
-        if settings.label_noise > 0:
-            noise = torch.randn(actions.shape, generator=generator, device=actions.device)
-            actions = actions + settings.label_noise * noise
+        if chance.label_noise is not None:
+            actions = actions + chance.label_noise
         labels = unit_from_action(actions, label_clamp=settings.label_clamp)
         losses = -distribution.log_prob(labels).sum(dim=1)  # (B,)
         if settings.entropy_bonus > 0:

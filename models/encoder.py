@@ -5,7 +5,7 @@ Coach, ICCV 2021, which the authors of DA-IBC built their earlier agents on.
 """
 
 import torch
-from jaxtyping import Float, UInt8
+from jaxtyping import Bool, Float, UInt8
 from torch import Tensor, nn
 from torch.nn import functional as F  # noqa: N812
 
@@ -18,22 +18,39 @@ FLAT_SIZE = 256 * 2 * 2  # what is left of a 192 x 192 picture
 HIDDEN_SIZE = 256
 
 
+def draw_dropout(
+    num_observations: int, probability: float, *, generator: torch.Generator
+) -> Bool[Tensor, "B 1"] | None:
+    """Choose the observations that lose their previous action, so that a learner cannot live by repeating it.
+
+    Args:
+        num_observations: How many to choose among.
+        probability: Chance of each to lose it [-].
+        generator: Source of chance; the choice lies on its device.
+
+    Returns:
+        Whether each keeps its previous action; None if all do.
+    """
+    if probability == 0:
+        return None
+    unit = torch.rand(num_observations, 1, generator=generator, device=generator.device)
+    return unit >= probability
+
+
 def drop_previous_action(
-    state: Float[Tensor, "B 3"], probability: float, generator: torch.Generator
+    state: Float[Tensor, "B 3"], kept: Bool[Tensor, "B 1"] | None
 ) -> Float[Tensor, "B 3"]:
-    """Hide the previous action of some observations, so that a learner cannot live by repeating it.
+    """Hide the previous action of some observations.
 
     Args:
         state: Speed [m/s], previous acceleration [-] and previous steering [-].
-        probability: Chance of each observation to lose its previous action [-].
-        generator: Source of chance.
+        kept: What `draw_dropout` gave.
 
     Returns:
         The state, with zeros for the previous actions that were dropped.
     """
-    if probability == 0:
+    if kept is None:
         return state
-    kept = torch.rand(len(state), 1, generator=generator, device=state.device) >= probability
     return torch.cat((state[:, :1], state[:, 1:] * kept), dim=1)
 
 

@@ -3,36 +3,16 @@
 import torch
 from jaxtyping import Float, UInt8
 from torch import Tensor
-from torch.nn import functional as F  # noqa: N812
 
 from models.config import LearnerConfig
-from models.encoder import Encoder, drop_previous_action
+from models.contrast import contrastive_loss
+from models.encoder import Encoder, draw_dropout, drop_previous_action
 from models.energy import EnergyHead
 from models.energy_scoring import EnergyScorer
 from models.expert_actions import ExpertActions
-from models.interfaces import Batch, Learner, weighted_mean
+from models.interfaces import Batch, Chance, Learner
 from models.negatives import uniform_actions
 from models.samplers import dfo, grid
-
-
-def info_nce(
-    positive_energy: Float[Tensor, " B"], negative_energies: Float[Tensor, "B N"]
-) -> Float[Tensor, " B"]:
-    """Negative log-probability of the expert action among itself and its negatives.
-
-    Args:
-        positive_energy: Energy of the expert action [nats].
-        negative_energies: Energies of its negatives [nats].
-
-    Returns:
-        The loss of each observation [nats].
-
-    Reference:
-        Florence et al., Implicit Behavioral Cloning, CoRL 2022, (2).
-    """
-    logits = -torch.cat((positive_energy[:, None], negative_energies), dim=1)  # (B, 1 + N)
-    targets = torch.zeros(len(logits), dtype=torch.long, device=logits.device)
-    return F.cross_entropy(logits, targets, reduction="none")
 
 
 class IbcLearner(Learner):
@@ -49,13 +29,28 @@ class IbcLearner(Learner):
         """Keep the expert actions [-] and their density [-], from which the search starts."""
         self.experts.remember(actions, density)
 
-    def negatives(self, batch: Batch, *, generator: torch.Generator) -> Float[Tensor, "B N 2"]:
+    def draw(self, actions: Float[Tensor, "B 2"], *, generator: torch.Generator) -> Chance:
+        """Draw dropout, and fresh negatives."""
+        probability = self.config.network.state_dropout
+        kept = draw_dropout(len(actions), probability, generator=generator)
+        pool = self.pool(actions)
+        negatives = self.negatives(len(actions), pool, generator=generator)
+        return Chance(keeps_previous=kept, negatives=negatives, pool=pool)
+
+    def pool(self, actions: Float[Tensor, "B 2"]) -> Float[Tensor, "P 2"]:
+        """Expert actions [-] that negatives are made from, given those of the minibatch; none for uniform ones."""
+        return actions[:0]
+
+    def negatives(
+        self, num_observations: int, pool: Float[Tensor, "P 2"], *, generator: torch.Generator
+    ) -> Float[Tensor, "B N 2"]:
         """Actions to tell the expert's apart from [-]."""
+        del pool
         count = self.config.negatives.count
-        return uniform_actions(len(batch.actions), count, generator=generator)
+        return uniform_actions(num_observations, count, generator=generator)
 
     def log_negative_density(
-        self, batch: Batch, candidates: Float[Tensor, "B N 2"]
+        self, candidates: Float[Tensor, "B N 2"], pool: Float[Tensor, "P 2"]
     ) -> Float[Tensor, "B N"] | None:
         """Log density of the negatives to correct the energies by, or None if that changes nothing [nats].
 
@@ -63,21 +58,24 @@ class IbcLearner(Learner):
             Singh, Tu, Sindhwani, Revisiting Energy Based Models as Policies: Ranking Noise Contrastive Estimation
             and Interpolating Energy Models, 2023: trained on -E - log p_n(y), exp(-E) becomes p(y | x) itself.
         """
-        del batch, candidates
+        del candidates, pool
         return None  # uniform negatives have the same density everywhere
 
     def loss(
-        self, batch: Batch, *, weights: Float[Tensor, " B"] | None, generator: torch.Generator
+        self, batch: Batch, chance: Chance, *, weights: Float[Tensor, " B"] | None
     ) -> Float[Tensor, ""]:
-        """Mean InfoNCE loss against fresh negatives [nats]."""
-        state = drop_previous_action(batch.state, self.config.network.state_dropout, generator)
-        negatives = self.negatives(batch, generator=generator)
-        candidates = torch.cat((batch.actions[:, None], negatives), dim=1)  # (B, 1 + N, 2)
-        energies = self.energy(self.encoder(batch.bev, state), candidates)
-        log_density = self.log_negative_density(batch, candidates)
-        if log_density is not None:
-            energies = energies + log_density
-        return weighted_mean(info_nce(energies[:, 0], energies[:, 1:]), weights)
+        """Mean InfoNCE loss of the expert actions against their negatives [nats]."""
+        assert chance.negatives is not None, "draw() gives them"
+        assert chance.pool is not None, "draw() gives it"
+        state = drop_previous_action(batch.state, chance.keeps_previous)
+        candidates = torch.cat((batch.actions[:, None], chance.negatives), dim=1)  # (B, 1 + N, 2)
+        return contrastive_loss(
+            self.energy,
+            self.encoder(batch.bev, state),
+            candidates,
+            offsets=self.log_negative_density(candidates, chance.pool),
+            weights=weights,
+        )
 
     @torch.no_grad()
     def energies(

@@ -34,6 +34,34 @@ class Batch(NamedTuple):
         return Batch(*(tensor.to(device, non_blocking=True) for tensor in self))
 
 
+class Chance(NamedTuple):
+    """What chance decides about a minibatch; None where it decides nothing.
+
+    It is drawn for the whole minibatch, so that processes which train on parts of it have the same negatives.
+
+    Attributes:
+        keeps_previous: Whether each observation keeps its previous action, shape (B, 1).
+        label_noise: Added to each action, shape (B, 2) [-].
+        negatives: Actions to tell each expert action apart from, shape (B, N, 2) [-].
+        pool: Expert actions that the negatives were made from, for all observations alike, shape (P, 2) [-].
+    """
+
+    keeps_previous: Tensor | None = None
+    label_noise: Tensor | None = None
+    negatives: Tensor | None = None
+    pool: Tensor | None = None
+
+    def part(self, rows: slice) -> "Chance":
+        """What of it concerns some observations."""
+
+        def own(tensor: Tensor | None) -> Tensor | None:
+            return None if tensor is None else tensor[rows]
+
+        return Chance(
+            own(self.keeps_previous), own(self.label_noise), own(self.negatives), self.pool
+        )
+
+
 @runtime_checkable
 class Demonstrations(Protocol):
     """What the expert did, by index."""
@@ -82,15 +110,27 @@ class Learner(nn.Module, ABC):
         """
 
     @abstractmethod
+    def draw(self, actions: Float[Tensor, "B 2"], *, generator: torch.Generator) -> Chance:
+        """Draw all that chance decides about a minibatch.
+
+        Args:
+            actions: Expert actions of the minibatch [-].
+            generator: Source of negatives, noise and dropout, on the device of the actions.
+
+        Returns:
+            What `loss` takes.
+        """
+
+    @abstractmethod
     def loss(
-        self, batch: Batch, *, weights: Float[Tensor, " B"] | None, generator: torch.Generator
+        self, batch: Batch, chance: Chance, *, weights: Float[Tensor, " B"] | None
     ) -> Float[Tensor, ""]:
-        """Mean loss over a batch.
+        """Mean loss over a minibatch or a part of it.
 
         Args:
             batch: Observations and expert actions.
+            chance: What `draw` gave for them.
             weights: Factor on the loss of each pair [-]; None weighs all alike.
-            generator: Source of negatives and dropout, on the device of the batch.
 
         Returns:
             A scalar to descend on [nats].

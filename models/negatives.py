@@ -9,6 +9,10 @@ from torch import Tensor
 from models.config import NegativesConfig
 from models.interfaces import ACTION_BOUND, ACTION_SIZE
 
+# Pairs of a point and an expert action at a time, 1 MB of exponents, so that they stay in the cache of a CPU core; a
+# GPU wants more.
+PAIRS_AT_A_TIME = {"cpu": 2**18, "cuda": 2**26}
+
 
 def uniform_actions(
     num_observations: int, count: int, *, generator: torch.Generator
@@ -108,9 +112,7 @@ def log_density(
     num_uniform = round(config.uniform_share * config.count)
     share = num_uniform / config.count
     points = actions.float().flatten(0, 1)  # (B N, 2)
-    squared = torch.cdist(points, expert_actions.float()).square()  # (B N, P)
-    gaussians = torch.logsumexp(-0.5 * squared / config.sigma**2, dim=1)
-    disturbed = gaussians - math.log(len(expert_actions) * 2 * math.pi * config.sigma**2)
+    disturbed = _log_gaussian_mixture(points, expert_actions.float(), sigma=config.sigma)
     if num_uniform == 0:
         return disturbed.view(actions.shape[:2])
     inside = (points.abs() <= ACTION_BOUND).all(dim=1)
@@ -120,3 +122,22 @@ def log_density(
     if num_uniform == config.count:
         return uniform.view(actions.shape[:2])
     return torch.logaddexp(disturbed + math.log(1 - share), uniform).view(actions.shape[:2])
+
+
+def _log_gaussian_mixture(
+    points: Float[Tensor, "M 2"], centers: Float[Tensor, "P 2"], *, sigma: float
+) -> Float[Tensor, " M"]:
+    """Log density of a mixture of equal Gaussians of standard deviation sigma around the centers [nats].
+
+    -|x - c|^2 / 2 = x c - |c|^2 / 2 - |x|^2 / 2, whose last term is the same for all centers: what is left is one
+    product of (x, 1) with (c, -|c|^2 / 2), a part of the points at a time.
+    """
+    scaled, columns = points / sigma, centers / sigma  # (M, 2), (P, 2)
+    constants = columns.square().sum(dim=1).mul_(-0.5)  # (P,)
+    rows = max(1, PAIRS_AT_A_TIME[points.device.type] // len(centers))
+    with torch.autocast(points.device.type, enabled=False):
+        sums = [
+            torch.addmm(constants, part, columns.T).logsumexp(dim=1) for part in scaled.split(rows)
+        ]
+    normaliser = math.log(len(centers) * 2 * math.pi * sigma**2)
+    return torch.cat(sums) - 0.5 * scaled.square().sum(dim=1) - normaliser

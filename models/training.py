@@ -141,12 +141,13 @@ class _Run:
 
     def _loss(self, indices: Tensor, generator: torch.Generator, *, weighted: bool) -> Tensor:
         batch = self.demonstrations.batch(indices).to(self.device)
+        chance = self.learner.draw(batch.actions, generator=generator)
         weights = None
         if weighted and self.learner.config.density.weighting == "loss":
             weights = self.weights[indices].to(self.device)
         bfloat16 = self.settings.precision == "bfloat16"
         with torch.autocast(self.device.type, torch.bfloat16, enabled=bfloat16):
-            return self.learner.loss(batch, weights=weights, generator=generator)
+            return self.learner.loss(batch, chance, weights=weights)
 
     @torch.no_grad()
     def _validation_loss(self, epoch: int) -> float | None:

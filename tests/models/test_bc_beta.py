@@ -31,6 +31,12 @@ def constant_learner(small_config):
     return build
 
 
+def loss_of(learner, batch, generator, weights=None):
+    """Loss with fresh draws."""
+    chance = learner.draw(batch.actions, generator=generator)
+    return learner.loss(batch, chance, weights=weights)
+
+
 def looks_alike(actions):
     num = len(actions)
     return Batch(torch.zeros(num, 1, 1, 1, dtype=torch.uint8), torch.zeros(num, 3), actions)
@@ -44,7 +50,7 @@ def test_training_recovers_known_beta_parameters(constant_learner, generator):
     optimiser = torch.optim.Adam(learner.parameters(), lr=0.01)
     for _ in range(100):
         optimiser.zero_grad()
-        learner.loss(batch, weights=None, generator=generator).backward()
+        loss_of(learner, batch, generator).backward()
         optimiser.step()
     found = learner.distribution(batch.bev[:1], batch.state[:1])
     torch.testing.assert_close(found.concentration1[0], alpha, rtol=0.1, atol=0)
@@ -59,7 +65,7 @@ def test_loss_and_gradient_are_finite_at_the_ends(
 ):
     learner = constant_learner(beta_offset=beta_offset, label_clamp=label_clamp, entropy_bonus=0.01)
     batch = looks_alike(torch.full((2, 2), label))
-    loss = learner.loss(batch, weights=None, generator=generator)
+    loss = loss_of(learner, batch, generator)
     loss.backward()
     assert torch.isfinite(loss)
     assert all(torch.isfinite(p.grad).all() for p in learner.parameters())
@@ -68,18 +74,15 @@ def test_loss_and_gradient_are_finite_at_the_ends(
 def test_loss_is_finite_where_softplus_underflows(constant_learner, generator):
     learner = constant_learner(beta_offset=0)
     nn.init.constant_(learner.alpha.bias, -1000.0)
-    loss = learner.loss(looks_alike(torch.zeros(2, 2)), weights=None, generator=generator)
+    loss = loss_of(learner, looks_alike(torch.zeros(2, 2)), generator)
     assert torch.isfinite(loss)
 
 
 def test_weights_multiply_the_losses(constant_learner, generator):
     learner = constant_learner(label_noise=0.0)
     batch = looks_alike(torch.tensor([[0.5, 0.1], [-0.8, 0.9]]))
-    single = [
-        learner.loss(Batch(*(x[[i]] for x in batch)), weights=None, generator=generator)
-        for i in range(2)
-    ]
-    weighted = learner.loss(batch, weights=torch.tensor([3.0, 1.0]), generator=generator)
+    single = [loss_of(learner, Batch(*(x[[i]] for x in batch)), generator) for i in range(2)]
+    weighted = loss_of(learner, batch, generator, weights=torch.tensor([3.0, 1.0]))
     torch.testing.assert_close(weighted, (3 * single[0] + single[1]) / 2)
 
 
@@ -127,7 +130,7 @@ def test_label_noise_bounds_the_concentration_that_one_repeated_label_asks_for(c
         optimiser = torch.optim.Adam(learner.parameters(), 1e-2)
         for _ in range(150):
             optimiser.zero_grad()
-            learner.loss(looks_alike(labels), weights=None, generator=generator).backward()
+            loss_of(learner, looks_alike(labels), generator).backward()
             optimiser.step()
         with torch.no_grad():
             spread[noise] = learner.distribution(*looks_alike(labels)[:2]).stddev

@@ -5,7 +5,7 @@ import torch
 from torch import nn
 
 from models.config import NetworkConfig
-from models.encoder import BlockConv2d, Encoder, drop_previous_action
+from models.encoder import BlockConv2d, Encoder, draw_dropout, drop_previous_action
 from models.learners import build_learner
 from models.presets import paper
 
@@ -44,7 +44,7 @@ def test_speed_is_fed_in_as_a_share_of_its_scale(batch):
 
 def test_dropped_previous_actions_are_zero_and_speed_is_kept(generator):
     state = torch.ones(2000, 3)
-    dropped = drop_previous_action(state, 0.3, generator)
+    dropped = drop_previous_action(state, draw_dropout(2000, 0.3, generator=generator))
     assert (dropped[:, 0] == 1).all()
     assert (dropped[:, 1] == dropped[:, 2]).all()
     assert (dropped[:, 1] == 0).float().mean().item() == pytest.approx(0.3, abs=0.04)

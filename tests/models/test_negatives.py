@@ -4,6 +4,7 @@ import math
 import pytest
 import torch
 
+from models import negatives
 from models.config import NegativesConfig
 from models.errors import SettingError
 from models.negatives import (
@@ -26,30 +27,30 @@ def test_uniform_actions_fill_the_box_evenly(generator):
 
 
 def test_without_noise_negatives_are_expert_actions_drawn_evenly(generator):
-    negatives = mixed_negatives(EXPERTS, 20, CONFIG, generator=generator)
-    is_first = (negatives == EXPERTS[0]).all(dim=-1)
-    assert (is_first | (negatives == EXPERTS[1]).all(dim=-1)).all()
+    drawn = mixed_negatives(EXPERTS, 20, CONFIG, generator=generator)
+    is_first = (drawn == EXPERTS[0]).all(dim=-1)
+    assert (is_first | (drawn == EXPERTS[1]).all(dim=-1)).all()
     assert is_first.float().mean().item() == pytest.approx(0.5, abs=0.03)
 
 
 def test_noise_has_the_standard_deviation_of_the_settings(generator):
-    negatives = perturbed_expert_negatives(
+    drawn = perturbed_expert_negatives(
         torch.zeros(1, 2), 50, 400, sigma=0.2, clip=False, generator=generator
     )
-    assert negatives.std(dim=(0, 1)).tolist() == pytest.approx([0.2, 0.2], abs=0.005)
+    assert drawn.std(dim=(0, 1)).tolist() == pytest.approx([0.2, 0.2], abs=0.005)
 
 
 @pytest.mark.parametrize("clip", [True, False])
 def test_clipping_brings_negatives_into_the_box(clip, generator):
     config = dataclasses.replace(CONFIG, sigma=1.0, clip=clip)
-    negatives = mixed_negatives(EXPERTS, 20, config, generator=generator)
-    assert (negatives.abs().max() <= 1) == clip
+    drawn = mixed_negatives(EXPERTS, 20, config, generator=generator)
+    assert (drawn.abs().max() <= 1) == clip
 
 
 def test_the_uniform_share_is_exact(generator):
     config = dataclasses.replace(CONFIG, uniform_share=0.25)
-    negatives = mixed_negatives(EXPERTS, 3, config, generator=generator)
-    is_expert = (negatives[:, :, None] == EXPERTS).all(dim=-1).any(dim=-1)
+    drawn = mixed_negatives(EXPERTS, 3, config, generator=generator)
+    is_expert = (drawn[:, :, None] == EXPERTS).all(dim=-1).any(dim=-1)
     assert is_expert.sum(dim=1).tolist() == [300] * 3
 
 
@@ -72,6 +73,28 @@ def test_density_of_negatives_integrates_to_one_and_is_the_one_drawn_from():
     drawn = mixed_negatives(experts, 500, config, generator=torch.Generator().manual_seed(0))
     right = (drawn[..., 0] > 0.05).float().mean()
     assert float(right) == pytest.approx(float(density[grid[:, 0] > 0.05].sum()) * cell, abs=0.02)
+
+
+@pytest.mark.parametrize("uniform_share", [0.0, 0.5])
+@pytest.mark.parametrize("sigma", [0.05, 0.2])
+def test_density_in_parts_equals_the_plain_formula_in_double_precision(
+    sigma, uniform_share, generator, monkeypatch
+):
+    experts = uniform_actions(1, 40, generator=generator)[0]
+    actions = 1.5 * uniform_actions(3, 100, generator=generator)
+    config = NegativesConfig(
+        count=10, sigma=sigma, clip=False, uniform_share=uniform_share, correction="ranking"
+    )
+    exact, centers = actions.double(), experts.double()
+    squared = (exact[:, :, None] - centers).square().sum(dim=-1)
+    density = (-0.5 * squared / sigma**2).exp().mean(dim=-1) / (2 * math.pi * sigma**2)
+    inside = (exact.abs() <= 1).all(dim=-1)
+    expected = ((1 - uniform_share) * density + uniform_share * inside / 4).log()
+    monkeypatch.setitem(negatives.PAIRS_AT_A_TIME, "cpu", 40 * 7)
+    found = log_density(actions, experts, config)
+    is_normal = expected > -80  # beyond, single precision has no such density, only its log
+    torch.testing.assert_close(found[is_normal], expected[is_normal].float(), rtol=1e-5, atol=2e-4)
+    assert torch.isfinite(found[inside]).all()
 
 
 def test_ranking_correction_learns_the_density_itself_and_none_its_ratio():
