@@ -1,0 +1,63 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mjdrive.evaluation.bootstrap import interquartile_mean, interval, mean
+
+
+def test_interval_covers_the_truth_as_often_as_it_says() -> None:
+    rng = np.random.default_rng(0)
+    hits = 0
+    for _ in range(300):
+        figures = rng.normal(5.0, 1.0, size=(8, 10))
+        found = interval(figures, rng=rng, num_draws=300)
+        hits += found.low <= 5.0 <= found.high
+    # Percentile intervals of eight seeds are a little narrow: about 92 of 100.
+    assert 0.87 < hits / 300 < 0.98
+
+
+def test_episodes_that_differ_alike_for_every_seed_do_not_widen_the_interval() -> None:
+    figures = np.tile(np.array([0.0, 50.0, 100.0]), (4, 1))
+    found = interval(figures, rng=np.random.default_rng(0))
+    assert (found.value, found.low, found.high) == (50.0, 50.0, 50.0)
+
+
+def test_single_seed_is_drawn_by_its_episodes() -> None:
+    found = interval(np.array([[0.0, 50.0, 100.0]]), rng=np.random.default_rng(0))
+    assert found.value == 50.0
+    assert found.low < 20.0
+    assert found.high > 80.0
+
+
+def test_middle_half_is_not_moved_by_one_odd_run() -> None:
+    figures = np.arange(8.0).reshape(2, 4)
+    odd = figures.copy()
+    odd[1, 3] = 1e6
+    assert interquartile_mean(figures) == interquartile_mean(odd) == 3.5
+    assert mean(odd) > 1e5
+
+
+def test_interval_says_what_a_table_shows() -> None:
+    found = interval(np.full((2, 2), 0.5), rng=np.random.default_rng(0))
+    assert str(found) == "0.50 [0.50, 0.50]"
+    assert str(interval(np.full((2, 2), 1234.0), rng=np.random.default_rng(0))) == (
+        "1,234 [1,234, 1,234]"
+    )
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_same_seed_gives_the_same_interval(seed: int) -> None:
+    figures = np.random.default_rng(seed).normal(size=(3, 5))
+    first, second = (
+        interval(figures, rng=np.random.default_rng(seed), num_draws=50) for _ in range(2)
+    )
+    assert first == second
+    assert first.low <= first.high
+
+
+def test_draws_of_a_batch_are_judged_one_by_one() -> None:
+    batch = np.random.default_rng(0).normal(size=(4, 3, 5))
+    for statistic in (mean, interquartile_mean):
+        np.testing.assert_allclose(statistic(batch), [float(statistic(it)) for it in batch])
+        assert float(statistic(np.full((3, 5), 2.0))) == pytest.approx(2.0)
