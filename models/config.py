@@ -216,7 +216,7 @@ class OptimiserConfig:
         batch_size: Pairs of each step.
         weight_decay: Decoupled weight decay [-].
         gradient_clip: Largest norm of the gradient, or None for no limit [-].
-        precision: Number format of the products; losses, energies and weights stay float32.
+        precision: Number format of the products; losses, energies and weights stay float32. "auto" takes bfloat16 where the machine is fast at it; a run that goes on keeps what it began with.
         validation_share: Share of the pairs, from the end, that are held out to report their loss [-].
         ema_decay: Decay a step of the running mean of the weights that is saved to act with; 0 saves the weights themselves [-].
     """
@@ -227,7 +227,7 @@ class OptimiserConfig:
     batch_size: int = 128
     weight_decay: float = 0.0
     gradient_clip: float | None = None
-    precision: Literal["float32", "bfloat16"] = "float32"
+    precision: Precision = "auto"
     validation_share: float = 0.0
     ema_decay: float = 0.0
 

@@ -63,7 +63,6 @@ def _effective(method: Method, *, epochs: int, negatives: int) -> LearnerConfig:
             learning_rate=3e-4 if method == "bc-beta" else 8e-4,
             schedule="onecycle",
             epochs=epochs,
-            precision="bfloat16",
             gradient_clip=1.0 if method == "bc-beta" else 10.0,
         ),
     )

@@ -2,18 +2,21 @@
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import NamedTuple
 
 import torch
 from torch import Tensor
 
-from models import checkpoint
+from models import precision, run_folder
+from models.ahead import one_ahead
 from models.config import LearnerConfig, OptimiserConfig
 from models.density import action_density, inverse_weights
+from models.distributed import ALONE, Team, sum_over
 from models.errors import CheckpointError, TrainingError
-from models.interfaces import Demonstrations, Learner
-from models.progress import EpochReport, StepReport, from_lines, to_lines
+from models.interfaces import Batch, Chance, Demonstrations, Learner
+from models.progress import EpochReport, StepReport
 from models.samplers.draws import draw_categorical
 from models.schedule import learning_rate
 from models.training_state import TrainingState
@@ -30,11 +33,13 @@ def fit(
     on_epoch: Callable[[EpochReport], None] | None = None,
     on_step: Callable[[StepReport], None] | None = None,
     device: torch.device | str = "cpu",
+    team: Team = ALONE,
 ) -> list[EpochReport]:
-    """Train a learner; with the same seed and number of threads, to the same weights.
+    """Train a learner; with the same seed, number of threads and processes, to the same weights.
 
     Args:
-        learner: What to train, in place; it ends on `device` with the weights to act with.
+        learner: What to train, in place; it ends on `device` with the weights to act with, and with the number format
+            that it was trained in among its settings.
         demonstrations: What to learn from.
         config: Settings, those that the learner was built with.
         folder: Run folder to write a checkpoint to after each epoch, or None to write nothing.
@@ -43,6 +48,7 @@ def fit(
         on_epoch: Called after each epoch, when its checkpoint is complete.
         on_step: Called after each step.
         device: Where to train.
+        team: The processes that share each minibatch, inside `distributed.joined`; the first one writes.
 
     Returns:
         One report an epoch, those before a resumption included.
@@ -50,23 +56,25 @@ def fit(
     Raises:
         CheckpointError: If there is nothing to resume from, other settings were used before, or the folder
             holds another run that is not to be resumed.
-        TrainingError: If there are no demonstrations, or the loss is no longer finite.
+        TrainingError: If there are no demonstrations, fewer pairs a step than processes, or the loss is no longer finite.
     """
     assert learner.config == config, "the learner was built with other settings"
-    run = _Run(learner, demonstrations, seed=seed, device=torch.device(device))
+    if resume and folder is None:
+        raise CheckpointError("There is no run folder to resume from; give the folder of a run.")
+    if not resume and folder is not None and team.leads:
+        run_folder.require_free(folder)
+    learner.config = precision.settle(config, device=device, run=folder if resume else None)
+    run = _Run(learner, demonstrations, seed=seed, device=torch.device(device), team=team)
     history: list[EpochReport] = []
-    if resume:
-        history = run.resume(folder)
-        assert folder is not None, "resume() refuses it"
-        run.save(folder, history)  # an interruption may have come between the files of a checkpoint
-    elif folder is not None and (folder / checkpoint.STATE).exists():
-        raise CheckpointError(
-            f"'{folder}' holds a training run already. Resume it, or train into another folder."
-        )
+    writes = folder if team.leads else None
+    if resume and folder is not None:
+        history = run_folder.take_up(folder, learner, run.state, seed=seed, device=run.device)
+        if writes is not None:  # an interruption may have come between the files of a checkpoint
+            run_folder.save(writes, learner, run.state, history, seed=seed)
     for epoch in range(len(history), config.optimiser.epochs):
         history.append(run.train_epoch(epoch, on_step))
-        if folder is not None:
-            run.save(folder, history)
+        if writes is not None:
+            run_folder.save(writes, learner, run.state, history, seed=seed)
         if on_epoch is not None:
             on_epoch(history[-1])
     run.state.put_weights_to_act()
@@ -79,22 +87,51 @@ def epoch_seed(seed: int, epoch: int, stream: int) -> int:
     return ((seed * 1_000_003 + epoch) * 2 + stream) % 2**63
 
 
+class _Minibatch(NamedTuple):
+    """What one process takes of a minibatch.
+
+    Attributes:
+        batch: Observations and expert actions; may be empty.
+        chance: What chance decides about them.
+        weights: Factor on the loss of each pair [-], or None.
+        share: Of the pairs of the whole minibatch [-].
+    """
+
+    batch: Batch
+    chance: Chance
+    weights: Tensor | None
+    share: float
+
+
 class _Run:
     """One call of `fit`: the learner, the data and the optimiser together."""
 
     def __init__(
-        self, learner: Learner, demonstrations: Demonstrations, *, seed: int, device: torch.device
+        self,
+        learner: Learner,
+        demonstrations: Demonstrations,
+        *,
+        seed: int,
+        device: torch.device,
+        team: Team,
     ) -> None:
         self.settings: OptimiserConfig = learner.config.optimiser
+        if self.settings.batch_size < team.size:
+            raise TrainingError(
+                f"{team.size} processes share minibatches of {self.settings.batch_size} pairs; expected at least one "
+                f"pair for each. Start fewer processes, or raise optimiser.batch_size."
+            )
         self.learner = learner
         self.demonstrations = demonstrations
         self.seed = seed
         self.device = device
+        self.team = team
         share = self.settings.validation_share
         self.num_training = len(demonstrations) - math.floor(share * len(demonstrations))
         if self.num_training == 0:
             raise TrainingError("There are no demonstrations to train on. Collect some first.")
-        actions = demonstrations.actions[: self.num_training].to(device)
+        self.actions = demonstrations.actions.to(device)
+        actions = self.actions[: self.num_training]
         density = action_density(actions, learner.config.density)
         self.weights = inverse_weights(density, learner.config.density).cpu()
         learner.prepare(actions, density)
@@ -105,22 +142,21 @@ class _Run:
     def train_epoch(self, epoch: int, on_step: Callable[[StepReport], None] | None) -> EpochReport:
         """Descend on every minibatch of one pass."""
         started = time.perf_counter()
-        generator = torch.Generator(self.device).manual_seed(epoch_seed(self.seed, epoch, 0))
         num_steps = self.settings.epochs * self.steps_per_epoch
         losses, norms, rate = [], [], 0.0
-        batches = self._order(epoch).split(self.settings.batch_size)
-        for step, indices in enumerate(batches, start=epoch * self.steps_per_epoch):
+        minibatches = one_ahead(self._minibatches(self._order(epoch), epoch, is_training=True))
+        for step, minibatch in enumerate(minibatches, start=epoch * self.steps_per_epoch):
             rate = learning_rate(step, num_steps, self.settings)
-            loss = self._loss(indices, generator, weighted=True)
-            if not math.isfinite(loss.item()):
+            loss = self._differentiate(minibatch)
+            if not math.isfinite(loss):
                 raise TrainingError(
-                    f"The loss is {loss.item()} at step {step} of epoch {epoch + 1}. "
+                    f"The loss is {loss} at step {step} of epoch {epoch + 1}. "
                     f"Lower optimiser.learning_rate (now {self.settings.learning_rate})."
                 )
-            norms.append(self.state.descend(loss, rate))
-            losses.append(loss.item())
+            norms.append(self.state.descend(rate))
+            losses.append(loss)
             if on_step is not None:
-                on_step(StepReport(step + 1, num_steps, losses[-1]))
+                on_step(StepReport(step + 1, num_steps, loss))
         duration_s = time.perf_counter() - started
         return EpochReport(
             epoch=epoch + 1,
@@ -139,64 +175,49 @@ class _Run:
             return torch.randperm(self.num_training, generator=generator)
         return draw_categorical(self.weights[None], self.num_training, generator=generator)[0]
 
-    def _loss(self, indices: Tensor, generator: torch.Generator, *, weighted: bool) -> Tensor:
-        batch = self.demonstrations.batch(indices).to(self.device)
-        chance = self.learner.draw(batch.actions, generator=generator)
-        weights = None
-        if weighted and self.learner.config.density.weighting == "loss":
-            weights = self.weights[indices].to(self.device)
+    def _minibatches(self, order: Tensor, epoch: int, *, is_training: bool) -> Iterator[_Minibatch]:
+        """Cut an order of pairs into minibatches and draw what chance decides about each."""
+        generator = torch.Generator(self.device).manual_seed(epoch_seed(self.seed, epoch, 0))
+        has_weights = is_training and self.learner.config.density.weighting == "loss"
+        for indices in order.split(self.settings.batch_size):
+            chance = self.learner.draw(self.actions[indices.to(self.device)], generator=generator)
+            rows = self.team.part(len(indices))
+            own = indices[rows]
+            yield _Minibatch(
+                self.demonstrations.batch(own).to(self.device),
+                chance.part(rows),
+                self.weights[own].to(self.device) if has_weights else None,
+                len(own) / len(indices),
+            )
+
+    def _loss(self, minibatch: _Minibatch) -> Tensor:
+        """What the pairs of this process add to the mean loss of the minibatch."""
+        if minibatch.share == 0:
+            return torch.zeros((), device=self.device)
         bfloat16 = self.settings.precision == "bfloat16"
         with torch.autocast(self.device.type, torch.bfloat16, enabled=bfloat16):
-            return self.learner.loss(batch, chance, weights=weights)
+            loss = self.learner.loss(minibatch.batch, minibatch.chance, weights=minibatch.weights)
+        return loss * minibatch.share
+
+    def _differentiate(self, minibatch: _Minibatch) -> float:
+        """Put the gradients of a whole minibatch in place, and return its mean loss."""
+        self.state.clear_gradients()
+        loss = self._loss(minibatch)
+        if loss.requires_grad:
+            loss.backward()
+        loss = loss.detach()
+        sum_over(self.team, [loss, *self.state.gradients()])
+        return loss.item()
 
     @torch.no_grad()
     def _validation_loss(self, epoch: int) -> float | None:
         held_out = torch.arange(self.num_training, len(self.demonstrations))
         if len(held_out) == 0:
             return None
-        generator = torch.Generator(self.device).manual_seed(epoch_seed(self.seed, epoch, 0))
-        total = 0.0
-        for indices in held_out.split(self.settings.batch_size):
-            total += self._loss(indices, generator, weighted=False).item() * len(indices)
-        return total / len(held_out)
-
-    def save(self, folder: Path, history: list[EpochReport]) -> None:
-        """Write the checkpoint of a complete epoch; what is resumed from comes last but for the label."""
-        config, epoch = self.learner.config, len(history)
-        state = checkpoint.RunState(config.method, self.seed, epoch, self.settings.epochs)
-        folder.mkdir(parents=True, exist_ok=True)
-        checkpoint.write_atomically(folder / checkpoint.METRICS, to_lines(history).encode())
-        checkpoint.write_tensors(folder / checkpoint.TRAINING, self.state.tensors(), epoch=epoch)
-        with self.state.weights_to_act():
-            checkpoint.save(folder, self.learner, state)
-
-    def resume(self, folder: Path | None) -> list[EpochReport]:
-        """Take up the last complete epoch."""
-        if folder is None:
-            raise CheckpointError(
-                "There is no run folder to resume from; give the folder of a run."
-            )
-        tensors, epoch = checkpoint.read_tensors(folder / checkpoint.TRAINING, device=self.device)
-        if checkpoint.load_config(folder) != self.learner.config:
-            raise CheckpointError(
-                f"'{folder}' was trained with other settings; resume with its own."
-            )
-        if (seed := checkpoint.load_state(folder).seed) != self.seed:
-            raise CheckpointError(f"'{folder}' was trained with seed {seed}, not {self.seed}.")
-        self.state.restore(tensors)
-        return _read_history(folder / checkpoint.METRICS, epoch)
-
-
-def _read_history(path: Path, epoch: int) -> list[EpochReport]:
-    """Read the reports of the complete epochs of a run."""
-    try:
-        history = from_lines(path.read_text())[:epoch]
-    except (OSError, ValueError, TypeError) as error:
-        raise CheckpointError(
-            f"Cannot read '{path}': {error}. Expected one line of JSON an epoch; train again."
-        ) from error
-    if len(history) != epoch:
-        raise CheckpointError(
-            f"'{path}' tells of {len(history)} epochs, the checkpoint beside it of {epoch}; train again."
-        )
-    return history
+        total = torch.zeros((), device=self.device)
+        lengths = [len(indices) for indices in held_out.split(self.settings.batch_size)]
+        minibatches = self._minibatches(held_out, epoch, is_training=False)
+        for minibatch, length in zip(minibatches, lengths, strict=True):
+            total += self._loss(minibatch) * length
+        sum_over(self.team, [total])
+        return total.item() / len(held_out)

@@ -24,23 +24,34 @@ class TrainingState:
             self._parameters.values(),
             lr=settings.learning_rate,
             weight_decay=settings.weight_decay,
+            fused=True,
         )
         self._means = {
             name: parameter.detach().clone() for name, parameter in self._parameters.items()
         }
 
-    def descend(self, loss: Tensor, learning_rate: float) -> float:
-        """Take one step.
+    def clear_gradients(self) -> None:
+        """Forget the gradients of the step before."""
+        self._optimiser.zero_grad(set_to_none=True)
+
+    def gradients(self) -> list[Tensor]:
+        """The gradient of each weight, zeros where there is none."""
+        for parameter in self._parameters.values():
+            if parameter.grad is None:
+                parameter.grad = torch.zeros_like(parameter)
+        return [
+            parameter.grad for parameter in self._parameters.values() if parameter.grad is not None
+        ]
+
+    def descend(self, learning_rate: float) -> float:
+        """Take one step against the gradients.
 
         Args:
-            loss: What to descend on [nats].
             learning_rate: Step size [-].
 
         Returns:
             Norm of the gradient before clipping [-].
         """
-        self._optimiser.zero_grad(set_to_none=True)
-        loss.backward()
         clip = self._settings.gradient_clip
         norm = torch.nn.utils.clip_grad_norm_(
             self._parameters.values(), float("inf") if clip is None else clip
@@ -76,7 +87,7 @@ class TrainingState:
                 parameter.copy_(tensors[f"weight/{name}"])
                 self._means[name].copy_(tensors[f"mean/{name}"])
                 self._optimiser.state[parameter] = {
-                    "step": tensors[f"step/{name}"].cpu(),
+                    "step": tensors[f"step/{name}"].to(parameter.device),
                     "exp_avg": torch.empty_like(parameter).copy_(tensors[f"exp_avg/{name}"]),
                     "exp_avg_sq": torch.empty_like(parameter).copy_(tensors[f"exp_avg_sq/{name}"]),
                 }
