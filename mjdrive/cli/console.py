@@ -39,8 +39,12 @@ class RateColumn(ProgressColumn):
         return Text(f"{rate:,.{0 if rate >= 10 else 2}f} {unit}/s", style="progress.data.speed")
 
 
-def progress_bars() -> Progress:
-    """Bars with count, rate and time left, on stderr so that stdout stays clean; use it as a context."""
+def progress_bars(*, visible: bool = True) -> Progress:
+    """Bars with count, rate and time left, on stderr so that stdout stays clean; use it as a context.
+
+    Args:
+        visible: Whether they are shown; of several processes one should.
+    """
     return Progress(
         SpinnerColumn(finished_text="[green]✓"),
         TextColumn("{task.description}"),
@@ -51,6 +55,7 @@ def progress_bars() -> Progress:
         TextColumn("left"),
         TimeRemainingColumn(),
         console=Console(stderr=True),
+        disable=not visible,
     )
 
 

@@ -50,6 +50,13 @@ if TYPE_CHECKING:
     "--resume", is_flag=True, help="Go on from the last complete epoch of the run folder."
 )
 @click.option("--overwrite", is_flag=True, help="Replace the run that is in the folder.")
+@click.option(
+    "--device",
+    default="auto",
+    show_default=True,
+    metavar="auto|cpu|cuda|cuda:N",
+    help="Where to train; auto takes a GPU where there is one.",
+)
 def train(
     *,
     method: str,
@@ -60,10 +67,12 @@ def train(
     seed: int,
     resume: bool,
     overwrite: bool,
+    device: str,
 ) -> None:
     """Train a policy on demonstrations.
 
-    A checkpoint is written after each epoch; an interrupted run goes on with --resume.
+    A checkpoint is written after each epoch; an interrupted run goes on with --resume. Several processes share the
+    work when torchrun starts them: torchrun --nproc-per-node 2 -m mjdrive train da-ibc
     """
     from mjdrive.cli.console import closing_table, progress_bars
     from mjdrive.learning.settings import learner_settings
@@ -72,9 +81,11 @@ def train(
         raise click.UsageError("--resume goes on with a run and --overwrite replaces it: give one.")
     settings = learner_settings(method, preset=preset, assignments=assignments)
     run = out or Path("runs") / method
-    from mjdrive.learning.training import train as train_policy  # torch takes a second
+    from mjdrive.learning.training import team as find_team  # torch takes a second
+    from mjdrive.learning.training import train as train_policy
 
-    with progress_bars() as bars:
+    team = find_team()
+    with progress_bars(visible=team.leads) as bars:
         drawing = bars.add_task("draw views", total=None, unit="views", visible=False)
         fitting = bars.add_task("train", total=None, visible=False)
 
@@ -89,11 +100,16 @@ def train(
             seed=seed,
             resume=resume,
             overwrite=overwrite,
+            device=device,
+            team=team,
+            on_note=bars.console.print if team.leads else None,
             on_frame=lambda done, total: bars.update(
                 drawing, completed=done, total=total, visible=True
             ),
             on_step=on_step,
         )
+    if not team.leads:
+        return
     closing_table(
         f"{method}, preset {preset}",
         {

@@ -1,10 +1,9 @@
 """Data set -> trained run folder."""
 
 import dataclasses
+import os
 from collections.abc import Callable
 from pathlib import Path
-
-import torch
 
 from mjdrive.config import read_json, write_json
 from mjdrive.episodes import dataset
@@ -14,8 +13,11 @@ from mjdrive.learning.batches import PackedDemonstrations
 from mjdrive.town import library
 from mjdrive.vehicle.cars import DEFAULT
 from mjdrive.versions import versions
+from models import distributed, precision
 from models.config import LearnerConfig
+from models.distributed import ALONE, Team
 from models.errors import ModelsError
+from models.hardware import choose_device
 from models.learners import build_learner
 from models.progress import EpochReport, StepReport
 from models.training import fit
@@ -57,6 +59,18 @@ class Source:
             )
 
 
+def team() -> Team:
+    """The processes that torchrun started to train together; this one alone if it started none.
+
+    Raises:
+        RunError: If the environment is half of torchrun's.
+    """
+    try:
+        return distributed.team_of(os.environ)
+    except ModelsError as error:
+        raise RunError(str(error)) from error
+
+
 def train(
     config: LearnerConfig,
     *,
@@ -65,7 +79,9 @@ def train(
     seed: int,
     resume: bool = False,
     overwrite: bool = False,
-    device: str = "cpu",
+    device: str = "auto",
+    team: Team = ALONE,
+    on_note: Callable[[str], None] | None = None,
     on_frame: Callable[[int, int], None] | None = None,
     on_step: Callable[[StepReport], None] | None = None,
     on_epoch: Callable[[EpochReport], None] | None = None,
@@ -79,7 +95,9 @@ def train(
         seed: Decides first weights, order of the data and negatives.
         resume: Whether to go on from the last complete epoch in `run`.
         overwrite: Whether a run that is in `run` is replaced, once the data are found to be whole.
-        device: Where to train, as torch names it.
+        device: Where to train: "auto" for a GPU where there is one, or "cpu", "cuda", "cuda:1".
+        team: The processes that train together, from `team()`; the first one writes.
+        on_note: Told in a line where and in which number format training goes on.
         on_frame: Told how many of how many views are drawn.
         on_step: Told about each step.
         on_epoch: Told about each epoch once its checkpoint is complete.
@@ -89,42 +107,57 @@ def train(
 
     Raises:
         DataError: If the data folder is missing, unfinished or damaged.
-        RunError: If the run folder is in use, or there is nothing to resume.
+        RunError: If the run folder is in use, there is nothing to resume, or the device is not there.
     """
     if resume:
         runs.require_begun(run)
-    elif not overwrite:
+    elif not overwrite and team.leads:
         runs.require_free(run)
+    try:
+        place = team.device(choose_device(device))
+        config = precision.settle(config, device=place, run=run if resume else None)
+        if on_note is not None:
+            on_note(precision.in_words(config, device=place))
+        demonstrations, source = _read(data, on_frame)
+        if resume:
+            source.require_same(read_json(Source, run / runs.SOURCE), run)
+        elif overwrite and team.leads:
+            runs.remove(run)
+        if team.leads:
+            write_json(source, run / runs.SOURCE)
+        learner = build_learner(config, seed=seed)
+        with distributed.joined(team, place):
+            return fit(
+                learner,
+                demonstrations.to(place),
+                config,
+                folder=run,
+                seed=seed,
+                resume=resume,
+                on_epoch=on_epoch,
+                on_step=on_step,
+                device=place,
+                team=team,
+            )
+    except ModelsError as error:
+        raise RunError(str(error)) from error
+
+
+def _read(
+    data: Path, on_frame: Callable[[int, int], None] | None
+) -> tuple[PackedDemonstrations, Source]:
+    """Read a data set and draw what the expert saw."""
     manifest, episodes = dataset.read_dataset(data)
     total = sum(entry.steps for entry in manifest.episodes)
     demonstrations = PackedDemonstrations(
         episodes,
         library.load(manifest.town),
         on_frame=on_frame and (lambda done: on_frame(done, total)),
-    ).to(torch.device(device))
-    source = Source(
+    )
+    return demonstrations, Source(
         town=manifest.town,
         manifest_sha256=dataset.digest(data),
         num_demonstrations=len(demonstrations),
         versions=versions(),
         cars={driven.car_digest: driven.car for driven in manifest.collections},
     )
-    if resume:
-        source.require_same(read_json(Source, run / runs.SOURCE), run)
-    elif overwrite:
-        runs.remove(run)
-    write_json(source, run / runs.SOURCE)
-    try:
-        return fit(
-            build_learner(config, seed=seed),
-            demonstrations,
-            config,
-            folder=run,
-            seed=seed,
-            resume=resume,
-            on_epoch=on_epoch,
-            on_step=on_step,
-            device=device,
-        )
-    except ModelsError as error:
-        raise RunError(str(error)) from error
