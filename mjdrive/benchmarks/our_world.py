@@ -23,6 +23,8 @@ class TownDrive:
     Attributes:
         facts: What is stepped.
         num_resets: Fresh starts so far [-].
+        simulation: Where it drives.
+        actions: What the expert did.
     """
 
     def __init__(self, route_name: str) -> None:
@@ -30,21 +32,21 @@ class TownDrive:
         self._route = routing.route_through(
             town, np.array(library.load_settings(town.name).routes[route_name])
         )
-        self._simulation = Simulation(town)
+        self.simulation = Simulation(town)
         self.num_resets = 0
-        self._start()
-        expert = PidExpert(town, parameters=self._simulation.car.parameters)
+        self.start()
+        expert = PidExpert(town, parameters=self.simulation.car.parameters)
         follow = FollowRoute(self._route)
         drive = rollout(
-            self._simulation,
+            self.simulation,
             expert,
             follow,
             num_steps=NUM_STEPS,
             seed=0,
             stop=lambda: follow.is_finished,
         )
-        self._actions = [Action(*row) for row in drive.actions.tolist()]
-        shape = self._simulation.observe().bev.shape
+        self.actions = [Action(*row) for row in drive.actions.tolist()]
+        shape = self.simulation.observe().bev.shape
         self.facts = {"versions": versions(), "observation": list(shape), "drive": len(drive.time)}
         self._pending: Iterator[Action] = iter(())
 
@@ -52,16 +54,17 @@ class TownDrive:
         """Do one control step with rules and observation; at the end of the drive start again first."""
         action = next(self._pending, None)
         if action is None:
-            self._start()
+            self.start()
             self.num_resets += 1
-            self._pending = iter(self._actions)
+            self._pending = iter(self.actions)
             action = next(self._pending)
-        self._simulation.step(action)
-        self._simulation.observe()
+        self.simulation.step(action)
+        self.simulation.observe()
 
-    def _start(self) -> None:
+    def start(self) -> None:
+        """Put the car back to where the drive begins."""
         x, y = self._route.points[0].tolist()
-        self._simulation.place(x=x, y=y, yaw=float(self._route.yaw[0]), seed=0)
+        self.simulation.place(x=x, y=y, yaw=float(self._route.yaw[0]), seed=0)
 
 
 def make(argument: str) -> TownDrive:

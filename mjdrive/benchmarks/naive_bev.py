@@ -1,25 +1,14 @@
-"""Time the bird's-eye view against the plain way to draw it: one warp a channel, each light asked on its own.
-
-Both draw the same poses in turns (A B A B), and only the medians are compared: a busy machine slows both.
-
-    python scripts/bench/bev.py
-"""
-
-import argparse
-import time
-from collections.abc import Callable
+"""The bird's-eye view as plainly as it can be drawn: one warp a channel, each light asked on its own."""
 
 import cv2
 import numpy as np
+from jaxtyping import Float, UInt8
 
 from mjdrive.bev.layers import LIGHT_LAYERS, LIGHT_VALUES, MARKED, Layer
-from mjdrive.bev.projector import BevProjector
 from mjdrive.config import BevConfig
 from mjdrive.datatypes import Lane, Town
 from mjdrive.geometry import headings
-from mjdrive.town import library, routing, signals
-
-Pose = tuple[float, float, float]
+from mjdrive.town import signals
 
 
 class PlainProjector:
@@ -49,7 +38,7 @@ class PlainProjector:
 
     def project(
         self, *, x: float, y: float, yaw: float, time: float, light_phase: float
-    ) -> np.ndarray:
+    ) -> UInt8[np.ndarray, "C S S"]:
         """Draw what the car sees; see `BevProjector.project`."""
         size = self._config.size_px
         view_from_world = self._view_from_world(x, y, yaw)
@@ -69,7 +58,7 @@ class PlainProjector:
                 cv2.line(bev[layer], *ends, value, thickness)
         return bev
 
-    def _view_from_world(self, x: float, y: float, yaw: float) -> np.ndarray:
+    def _view_from_world(self, x: float, y: float, yaw: float) -> Float[np.ndarray, "3 3"]:
         config, cos, sin = self._config, np.cos(yaw), np.sin(yaw)
         scale = config.pixels_per_metre
         row = config.size_px - config.ego_above_bottom_px + scale * config.origin_ahead_of_rear_axle
@@ -98,52 +87,3 @@ class PlainProjector:
     def _to_pixels(self, points: np.ndarray) -> np.ndarray:
         raster = points @ self._raster_from_world[:2, :2].T + self._raster_from_world[:2, 2]
         return np.rint(raster).astype(np.int32)
-
-
-def drive_poses(town: Town, count: int, rng: np.random.Generator) -> list[Pose]:
-    """Poses of drives [m, m, rad]: 50 steps along each of many lanes."""
-    poses: list[Pose] = []
-    while len(poses) < count:
-        name, _ = routing.random_start(town, rng)
-        line = town.lanes[name].centerline
-        steps = np.linspace(0.0, 1.0, 50)
-        x, y = (np.interp(steps, np.linspace(0, 1, len(line)), line[:, axis]) for axis in (0, 1))
-        yaw = headings(np.column_stack([x, y]))
-        poses += zip(x.tolist(), y.tolist(), yaw.tolist(), strict=True)
-    return poses[:count]
-
-
-def time_per_frame(project: Callable[..., np.ndarray], poses: list[Pose]) -> float:
-    """Mean time of the processor to draw a frame [s]."""
-    start = time.thread_time()
-    for number, (x, y, yaw) in enumerate(poses):
-        project(x=x, y=y, yaw=yaw, time=0.1 * number, light_phase=0.0)
-    return (time.thread_time() - start) / len(poses)
-
-
-def main() -> None:
-    """Print time a frame and the ratio of the two."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--town", default="town01", help="name of a town")
-    parser.add_argument("--frames", type=int, default=400, help="poses a round")
-    parser.add_argument("--rounds", type=int, default=11, help="rounds of each of the two")
-    options = parser.parse_args()
-    cv2.setNumThreads(1)
-    town = library.load(options.town)
-    ours, plain = BevProjector(town), PlainProjector(town)
-    poses = drive_poses(town, options.frames, np.random.default_rng(0))
-    times = np.array(
-        [
-            [time_per_frame(ours.project, poses), time_per_frame(plain.project, poses)]
-            for _ in range(options.rounds)
-        ]
-    )
-    median, best = np.median(times, axis=0) * 1e3, times.min(axis=0) * 1e3
-    print(f"{options.town}, {options.frames} poses, {options.rounds} rounds, one thread")
-    print(f"BevProjector: {median[0]:.3f} ms a frame (median), {best[0]:.3f} ms (best)")
-    print(f"plain:        {median[1]:.3f} ms a frame (median), {best[1]:.3f} ms (best)")
-    print(f"ratio:        {np.median(times[:, 1] / times[:, 0]):.2f} (median of rounds)")
-
-
-if __name__ == "__main__":
-    main()
