@@ -1,5 +1,6 @@
 """Trained network -> `Policy[Observation]`."""
 
+import dataclasses
 from pathlib import Path
 
 import torch
@@ -8,6 +9,7 @@ from mjdrive.datatypes import Action, Observation
 from mjdrive.errors import RunError
 from mjdrive.learning.settings import acting_settings
 from models import checkpoint
+from models.energy_scoring import resolved
 from models.errors import ModelsError
 from models.interfaces import Learner
 
@@ -15,12 +17,22 @@ from models.interfaces import Learner
 class Pilot:
     """Drives with a trained network.
 
+    The same seed gives the same actions with any number of threads, but not with another number format, so `config` says
+    the one that is used here where the settings of the run leave it open.
+
     Args:
         learner: The network.
         name: How summaries call it.
+
+    Attributes:
+        name: How summaries call it.
+        config: Settings of the network, with the number format that it acts in.
     """
 
     def __init__(self, learner: Learner, *, name: str) -> None:
+        sampler = learner.config.sampler
+        sampler = dataclasses.replace(sampler, precision=resolved(sampler.precision))
+        learner.config = dataclasses.replace(learner.config, sampler=sampler)
         self.name = name
         self.config = learner.config
         self._learner = learner.eval()

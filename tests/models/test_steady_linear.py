@@ -3,11 +3,11 @@ from collections.abc import Iterator
 
 import pytest
 import torch
-from torch.nn import functional as F
+from torch.nn import functional as F  # noqa: N812
 
 from models import presets
 from models.learners import build_learner
-from models.steady_linear import SteadyLinear, steady_linear
+from models.steady_linear import SteadyLinear
 
 # Powers of two cut these matrices into equal parts, which would hide what others do.
 THREAD_COUNTS = (1, 2, 3, 5, 7)
@@ -63,10 +63,16 @@ def test_it_is_the_product_with_a_matrix_whatever_the_rows_and_gradients(generat
             torch.testing.assert_close(layer(rows), expected)
 
 
-def test_the_number_of_threads_is_as_before_even_after_an_error():
+def test_the_number_of_threads_is_as_before_even_after_an_error(monkeypatch):
+    layer, row = SteadyLinear(20, 30), torch.ones(1, 20)
     with threads(3), torch.no_grad():
-        SteadyLinear(20, 30)(torch.ones(1, 20))
+        layer(row)
         assert torch.get_num_threads() == 3
-        with pytest.raises(RuntimeError):
-            steady_linear(torch.ones(1, 19), torch.ones(30, 20), torch.ones(30))
+        monkeypatch.setattr(F, "linear", broken)
+        with pytest.raises(RuntimeError, match="broken in 1 thread"):
+            layer(row)
         assert torch.get_num_threads() == 3
+
+
+def broken(*_):
+    raise RuntimeError(f"broken in {torch.get_num_threads()} thread")

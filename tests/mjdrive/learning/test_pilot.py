@@ -1,3 +1,5 @@
+import dataclasses
+import json
 from pathlib import Path
 
 import numpy as np
@@ -7,7 +9,8 @@ import torch
 from mjdrive.datatypes import Observation
 from mjdrive.errors import ConfigError, RunError
 from mjdrive.learning import pilot
-from models import checkpoint, presets
+from models import checkpoint, hardware, presets
+from models.energy_scoring import resolved
 from models.learners import build_learner
 
 SEEN = Observation(bev=np.full((5, 192, 192), 80, np.uint8), state=np.zeros(3, np.float32))
@@ -44,8 +47,33 @@ def test_same_seed_acts_alike_and_each_reset_starts_over(run: Path) -> None:
 
 def test_preset_changes_how_it_acts_and_not_what_it_learnt(run: Path) -> None:
     policy = pilot.load(run, preset="paper")
-    assert policy.config.sampler == presets.paper("da-ibc").sampler
+    sampler = presets.paper("da-ibc").sampler
+    assert policy.config.sampler == dataclasses.replace(sampler, precision=resolved("auto"))
     assert policy.config.network == presets.quick("da-ibc").network
+
+
+@pytest.mark.parametrize(("is_fast", "expected"), [(True, "bfloat16"), (False, "float32")])
+def test_config_names_the_number_format_that_acts(
+    run: Path, monkeypatch: pytest.MonkeyPatch, *, is_fast: bool, expected: str
+) -> None:
+    monkeypatch.setattr(hardware, "bfloat16_is_fast", lambda device: is_fast)
+    assert checkpoint.load_config(run).sampler.precision == "auto"
+    assert pilot.load(run).config.sampler.precision == expected
+
+
+def test_runs_from_before_there_was_a_precision_are_read(run: Path) -> None:
+    path = run / checkpoint.CONFIG
+    settings = json.loads(path.read_text())
+    del settings["sampler"]["precision"]
+    path.write_text(json.dumps(settings))
+    assert pilot.load(run).config.sampler.precision == resolved("auto")
+
+
+def test_a_precision_that_does_not_exist_is_refused(run: Path) -> None:
+    path = run / checkpoint.CONFIG
+    path.write_text(path.read_text().replace('"auto"', '"float16"'))
+    with pytest.raises(RunError, match="float16"):
+        pilot.load(run)
 
 
 def test_unknown_preset_and_folders_without_a_run_are_refused(run: Path, tmp_path: Path) -> None:
