@@ -6,6 +6,7 @@ given. Nothing but the result of a whole job comes back, so Ctrl-C leaves whole 
 
 import multiprocessing
 import os
+import pickle
 import signal
 import threading
 from collections import deque
@@ -19,7 +20,7 @@ from typing import Any
 from mjdrive.errors import WorkerError
 from mjdrive.execution.outcomes import Done, Outcome, outcome_of, result_of
 from mjdrive.execution.serial import SerialExecutor
-from mjdrive.execution.work import J, Job, R, Work, seldom
+from mjdrive.execution.work import J, Job, R, Tell, Work, seldom
 
 BETWEEN_REPORTS = 0.1
 """Least time between two reports of a process [s]."""
@@ -51,10 +52,11 @@ class PoolExecutor:
         processes: list[SpawnProcess] = []
         try:
             with _no_interrupts(), _threads_shared_by(num_processes):
-                for _ in range(num_processes):
-                    process, connection = _start(work)
-                    processes.append(process)
-                    under_way[connection] = _hand_out(waiting, connection)
+                started = [_start(processes) for _ in range(num_processes)]
+            # Plainly: multiprocessing's own way shares the memory of tensors, which needs both processes alive.
+            content = pickle.dumps(work)
+            for connection in started:
+                under_way[connection] = _hand_out(waiting, connection, content)
             while under_way:
                 for connection in _ready(under_way):
                     job = under_way[connection]
@@ -74,13 +76,16 @@ class PoolExecutor:
                 process.join()
 
 
-def _start(work: Work[Any, Any]) -> tuple[SpawnProcess, Connection]:
+def _start(processes: list[SpawnProcess]) -> Connection:
+    """Start a process and note it at once, so that it is ended whatever comes next."""
     context = multiprocessing.get_context("spawn")
     ours, theirs = context.Pipe()
-    process = context.Process(target=_serve, args=(work, theirs), daemon=True)
+    # The work follows through the pipe: `start` itself waits for ever if a process ends while it reads its arguments.
+    process = context.Process(target=_serve, args=(theirs,), daemon=True)
     process.start()
+    processes.append(process)
     theirs.close()  # so that the end of the process is the end of the connection
-    return process, ours
+    return ours
 
 
 def _ready(under_way: dict[Connection, J]) -> list[Connection]:
@@ -88,9 +93,12 @@ def _ready(under_way: dict[Connection, J]) -> list[Connection]:
     return [connection for connection in under_way if connection in ready]
 
 
-def _hand_out(waiting: deque[J], connection: Connection) -> J:
+def _hand_out(waiting: deque[J], connection: Connection, work: bytes | None = None) -> J:
+    """Give a process its next job, after the work if it is new."""
     job = waiting.popleft()
     try:
+        if work is not None:
+            connection.send_bytes(work)
         connection.send(job)
     except (BrokenPipeError, ConnectionResetError) as error:
         raise _ended(job) from error
@@ -113,10 +121,11 @@ def _ended(job: Job) -> WorkerError:
     )
 
 
-def _serve(work: Work[Job, Any], connection: Connection) -> None:
+def _serve(connection: Connection) -> None:
     """What a process does: work on what comes, until nobody is there to send any more."""
     try:
-        begun = outcome_of(work.begin)
+        content = connection.recv_bytes()
+        begun = outcome_of(lambda: _begin(content))
         if not isinstance(begun, Done):
             connection.send(begun)
             return
@@ -126,6 +135,11 @@ def _serve(work: Work[Job, Any], connection: Connection) -> None:
             connection.send(outcome_of(partial(begun.result, job, report)))
     except (EOFError, BrokenPipeError, ConnectionResetError):
         return  # whoever asked is gone
+
+
+def _begin(content: bytes) -> Callable[[Job, Tell], Any]:
+    work: Work[Job, Any] = pickle.loads(content)
+    return work.begin()
 
 
 @contextmanager

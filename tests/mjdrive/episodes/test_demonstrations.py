@@ -3,6 +3,7 @@ import hashlib
 import json
 import os
 import signal
+from multiprocessing.context import SpawnProcess
 from pathlib import Path
 
 import casadi
@@ -113,13 +114,14 @@ def test_killed_process_is_told_and_the_rest_goes_on_later(
 ) -> None:
     start = pool._start
 
-    def start_and_kill(work: collector.Collecting) -> object:
-        process, connection = start(work)
-        assert process.pid is not None
-        os.kill(process.pid, signal.SIGKILL)
+    def start_and_kill(processes: list[SpawnProcess]) -> object:
+        connection = start(processes)
+        pid = processes[-1].pid
+        assert pid is not None
+        os.kill(pid, signal.SIGKILL)
         if is_gone_at_hand_out:
-            process.join()
-        return process, connection
+            processes[-1].join()
+        return connection
 
     monkeypatch.setattr(pool, "_start", start_and_kill)
     with pytest.raises(WorkerError, match=r"'short-\d' was ended from outside.*fewer --jobs"):
