@@ -7,6 +7,7 @@ training.safetensors   weights, moments and running means as they were when trai
 metrics.jsonl          one line an epoch
 """
 
+import hashlib
 import importlib.metadata
 import json
 import os
@@ -28,6 +29,8 @@ from models.serialization import from_json, to_json
 
 CONFIG, STATE, MODEL = "config.json", "state.json", "model.safetensors"
 TRAINING, METRICS = "training.safetensors", "metrics.jsonl"
+DIGEST = ", sha256 "
+"""What stands between epochs and digest in a safetensors file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,9 +72,20 @@ def write_atomically(path: Path, content: bytes) -> None:
 
 
 def write_tensors(path: Path, tensors: Mapping[str, Tensor], *, epoch: int) -> None:
-    """Write tensors, with the number of complete epochs beside them, as one safetensors file."""
+    """Write tensors, with their digest and the number of complete epochs, as one safetensors file."""
     rows = {name: tensor.detach().cpu().contiguous() for name, tensor in tensors.items()}
-    write_atomically(path, safetensors.torch.save(rows, metadata={"epoch": str(epoch)}))
+    # One entry, as safetensors writes several in an order that changes from time to time.
+    metadata = {"epoch": f"{epoch}{DIGEST}{digest(rows)}"}
+    write_atomically(path, safetensors.torch.save(rows, metadata=metadata))
+
+
+def digest(tensors: Mapping[str, Tensor]) -> str:
+    """SHA-256 of names, types, shapes and bytes of tensors, hexadecimal, whatever their order."""
+    hashed = hashlib.sha256()
+    for name, tensor in sorted(tensors.items()):
+        hashed.update(f"{name} {tensor.dtype} {tuple(tensor.shape)}\n".encode())
+        hashed.update(tensor.cpu().contiguous().reshape(-1).view(torch.uint8).numpy().data)
+    return hashed.hexdigest()
 
 
 def read_tensors(path: Path, *, device: torch.device) -> tuple[dict[str, Tensor], int]:
@@ -81,18 +95,24 @@ def read_tensors(path: Path, *, device: torch.device) -> tuple[dict[str, Tensor]
         The tensors by name, and the number of complete epochs.
 
     Raises:
-        CheckpointError: If the file is missing or truncated.
+        CheckpointError: If the file is missing, truncated or changed.
     """
     if not path.is_file():
         raise CheckpointError(_missing(path))
     try:
         with safetensors.safe_open(path, framework="pt", device=str(device)) as file:
             tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118
-            return tensors, int((file.metadata() or {})["epoch"])
+            epoch, _, written = (file.metadata() or {})["epoch"].partition(DIGEST)
+            result = tensors, int(epoch)
     except (safetensors.SafetensorError, OSError, KeyError, ValueError) as error:
         raise CheckpointError(
             f"Cannot read '{path}': {error}. Expected the safetensors file of a training run; train again."
         ) from error
+    if written and written != digest(tensors):  # older files have none
+        raise CheckpointError(
+            f"'{path}' is damaged: its tensors are not those whose digest it holds. Copy it again, or train again."
+        )
+    return result
 
 
 def save(folder: Path, learner: Learner, state: RunState) -> None:

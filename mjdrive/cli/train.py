@@ -91,7 +91,13 @@ def train(
 
         def on_step(report: "StepReport") -> None:
             text = f"train, loss {report.loss:.3f}"
-            bars.update(fitting, completed=report.step, total=report.num_steps, description=text)
+            bars.update(
+                fitting,
+                completed=report.step,
+                total=report.num_steps,
+                description=text,
+                visible=True,
+            )
 
         reports: list[EpochReport] = train_policy(
             settings,

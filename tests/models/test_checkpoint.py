@@ -1,6 +1,7 @@
 import dataclasses
 
 import pytest
+import safetensors.torch
 import torch
 
 from models import checkpoint
@@ -53,6 +54,38 @@ def test_a_truncated_file_is_named(name, share, run):
     (run / name).write_bytes(content[: int(share * len(content))])
     with pytest.raises(CheckpointError, match=name):
         load(run)
+
+
+@pytest.mark.parametrize("name", [checkpoint.MODEL, checkpoint.TRAINING])
+@pytest.mark.parametrize("share", [0.2, 0.6, 0.999])
+def test_a_flipped_bit_is_refused(name, share, run):
+    path = run / name
+    if name == checkpoint.TRAINING:
+        checkpoint.write_tensors(path, {"weight/a": torch.ones(50, 50)}, epoch=1)
+    content = bytearray(path.read_bytes())
+    content[int(share * len(content))] ^= 1
+    path.write_bytes(content)
+    with pytest.raises(CheckpointError, match=r"is damaged: its tensors are not those"):
+        checkpoint.read_tensors(path, device=torch.device("cpu"))
+
+
+def test_tensors_of_before_there_were_digests_are_read(tmp_path):
+    rows = {"a": torch.arange(3.0)}
+    content = safetensors.torch.save(rows, metadata={"epoch": "4"})
+    (tmp_path / "old.safetensors").write_bytes(content)
+    tensors, epoch = checkpoint.read_tensors(
+        tmp_path / "old.safetensors", device=torch.device("cpu")
+    )
+    assert epoch == 4
+    assert torch.equal(tensors["a"], rows["a"])
+
+
+def test_the_same_tensors_are_the_same_bytes(tmp_path):
+    written = set()
+    for _ in range(8):
+        checkpoint.write_tensors(tmp_path / "x", {"a": torch.ones(2), "b": torch.ones(())}, epoch=1)
+        written.add((tmp_path / "x").read_bytes())
+    assert len(written) == 1
 
 
 def test_a_missing_folder_is_named(tmp_path):
