@@ -4,6 +4,7 @@ Source of the conventions: Roach's chauffeurnet renderer and the paper's configu
 -16, -9, -1 at 10 Hz; docs/decisions.md); the rasters are drawn once, every frame is one affine warp.
 """
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -91,7 +92,7 @@ class BevProjector:
         self._stop_lines.draw(
             bev,
             view_from_world,
-            ego_world=(x + ahead * np.cos(yaw), y + ahead * np.sin(yaw)),
+            ego_world=(x + ahead * math.cos(yaw), y + ahead * math.sin(yaw)),
             time=time,
             light_phase=light_phase,
         )
@@ -114,10 +115,9 @@ class BevProjector:
         Returns:
             Homogeneous transform from the world frame [m] to the view [px].
         """
-        cos, sin = np.cos(yaw), np.sin(yaw)
-        vehicle_from_world = np.array(
-            [[cos, sin, -cos * x - sin * y], [-sin, cos, sin * x - cos * y], [0.0, 0.0, 1.0]]
-        )
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        rows = (cos, sin, -cos * x - sin * y, -sin, cos, sin * x - cos * y, 0.0, 0.0, 1.0)
+        vehicle_from_world = np.array(rows).reshape(3, 3)
         return self._view_from_vehicle @ vehicle_from_world
 
     def _refuse_misfits(

@@ -70,8 +70,12 @@ class Raster:
         size = bev.shape[1:]
         cut = np.empty(size, np.uint8)
         cv2.warpAffine(self.image, view_from_raster[:2], size, cut, cv2.INTER_NEAREST)
-        for number, channel in enumerate(self.channels):
-            np.multiply(cut >> number & 1, MARKED, out=bev[channel])
+        *lower, last = self.channels
+        below_last = (1 << len(lower)) - 1
+        cv2.threshold(cut, below_last, MARKED, cv2.THRESH_BINARY, dst=bev[last])
+        for number, channel in enumerate(lower):
+            bit = cut & np.uint8(1 << number)
+            cv2.threshold(bit, 0, MARKED, cv2.THRESH_BINARY, dst=bev[channel])
 
 
 def require_drawable(town: Town, config: BevConfig | None = None) -> None:

@@ -1,5 +1,7 @@
 """The light channels: a bar at each stop line, in the colour that its light shows."""
 
+import math
+
 import cv2
 import numpy as np
 from jaxtyping import Float, UInt8
@@ -8,6 +10,15 @@ from mjdrive.bev.layers import LIGHT_LAYERS, Layer, light_values
 from mjdrive.config import BevConfig
 from mjdrive.datatypes import Town, TrafficLight
 from mjdrive.town import signals
+
+Point = tuple[float, float]
+Pixel = tuple[int, int]
+
+_Bar = tuple[int, float, float, float, float, float, float]
+"""Number of a light, middle and both ends of its bar, world frame [m]."""
+
+_CELL = 16.0
+"""Side of the squares that remember which lights are around them [m]."""
 
 
 class StopLines:
@@ -28,9 +39,11 @@ class StopLines:
         self._middles_world = self._bars_world.mean(axis=1)
         self._reach = min(config.light_range, _farthest_visible(self._bars_world, config))
         # Lights that change together are asked once a frame.
-        programs = [(light.program, light.offset) for light in lights]
-        self._group = [programs.index(program) for program in programs]
-        self._lights = lights
+        cycles = [signals.Cycle.of(light) for light in lights]
+        self._cycles = list(dict.fromkeys(cycles))
+        self._group = [self._cycles.index(cycle) for cycle in cycles]
+        self._cells: dict[tuple[int, int], list[_Bar]] = {}
+        self._margin_px = config.light_thickness_px
 
     def draw(
         self,
@@ -50,30 +63,69 @@ class StopLines:
             time: Simulation time since reset [s]; the history does not reach before 0.
             light_phase: Time into the light cycle at reset [s].
         """
-        offsets = self._middles_world - ego_world
-        near = np.flatnonzero(np.square(offsets).sum(axis=1) <= self._reach**2).tolist()
-        if not near:
+        bars = self._seen(ego_world, view_from_world, size_px=bev.shape[1])
+        if not bars:
             return
-        bars = self._bars_world[near] @ view_from_world[:2, :2].T + view_from_world[:2, 2]
-        ends = np.rint(bars).astype(int).tolist()
         clocks = [max(time - age, 0.0) + light_phase for age in self._ages]
         drawn: dict[tuple[int, ...], Layer] = {}
         for layer, clock in zip(LIGHT_LAYERS, clocks, strict=True):
-            values = self._values_at(clock, near)
+            values = self._values_at(clock, bars)
             if values in drawn:  # lights seldom change: most channels look alike
                 bev[layer] = bev[drawn[values]]
                 continue
             drawn[values] = layer
-            for (start, end), value in zip(ends, values, strict=True):
+            channel = bev[layer]
+            for (_, start, end), value in zip(bars, values, strict=True):
                 if value:
-                    cv2.line(bev[layer], start, end, value, self._config.light_thickness_px)
+                    cv2.line(channel, start, end, value, self._config.light_thickness_px)
 
-    def _values_at(self, clock: float, lights: list[int]) -> tuple[int, ...]:
-        groups = [self._group[light] for light in lights]
-        values = {
-            group: self._values[signals.at(self._lights[group], clock)] for group in set(groups)
-        }
-        return tuple(values[group] for group in groups)
+    def _seen(
+        self, ego_world: Point, view_from_world: Float[np.ndarray, "3 3"], *, size_px: int
+    ) -> list[tuple[int, Pixel, Pixel]]:
+        """Number, start and end of each bar that reaches into a view; a few numbers need no numpy."""
+        x, y = ego_world
+        key = (math.floor(x / _CELL), math.floor(y / _CELL))
+        around = self._cells.get(key)
+        if around is None:
+            around = self._cells[key] = self._around(*key)
+        if not around:
+            return []
+        (a, b, left), (c, d, top), _ = view_from_world.tolist()
+        low, high = -self._margin_px, size_px + self._margin_px
+        seen = []
+        for light, middle_x, middle_y, start_x, start_y, end_x, end_y in around:
+            off_x, off_y = middle_x - x, middle_y - y
+            if off_x * off_x + off_y * off_y > self._reach**2:
+                continue
+            start = (
+                round(a * start_x + b * start_y + left),
+                round(c * start_x + d * start_y + top),
+            )
+            end = (round(a * end_x + b * end_y + left), round(c * end_x + d * end_y + top))
+            if all(
+                max(first, last) > low and min(first, last) < high
+                for first, last in zip(start, end, strict=True)
+            ):
+                seen.append((light, start, end))
+        return seen
+
+    def _around(self, column: int, row: int) -> list[_Bar]:
+        """All bars that are near somewhere in one square, and of few others."""
+        middle = (column + 0.5) * _CELL, (row + 0.5) * _CELL
+        off = np.hypot(*(self._middles_world - middle).T)
+        found = np.flatnonzero(off <= self._reach + _CELL)  # more than half a diagonal
+        numbers = np.column_stack([self._middles_world, self._bars_world.reshape(-1, 4)])
+        return [(light, *numbers[light].tolist()) for light in found.tolist()]
+
+    def _values_at(self, clock: float, bars: list[tuple[int, Pixel, Pixel]]) -> tuple[int, ...]:
+        values: dict[int, int] = {}
+        shown = []
+        for light, *_ in bars:
+            group = self._group[light]
+            if group not in values:
+                values[group] = self._values[self._cycles[group].at(clock)]
+            shown.append(values[group])
+        return tuple(shown)
 
 
 def _farthest_visible(bars_world: Float[np.ndarray, "L 2 2"], config: BevConfig) -> float:

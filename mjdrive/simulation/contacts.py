@@ -11,6 +11,11 @@ _ROLES = {"hull": _HULL, "tyre": _TYRE, "kerb": _KERB, "road": _ROAD}
 
 _TYRE_ON_ROAD = {_ROAD, _TYRE}
 
+_MOST_MET = 1000
+"""Sets of contacts that are remembered at once [-]."""
+
+Hit = tuple[InfractionKind, str]
+
 
 class ContactWatch:
     """Names what the car touches, from the contacts of the last physics step.
@@ -24,15 +29,26 @@ class ContactWatch:
         self._data = data
         self._names = [model.geom(index).name for index in range(model.ngeom)]
         self._role = np.array([_ROLES.get(name.split("_")[0], _OBSTACLE) for name in self._names])
+        self._met: dict[bytes, frozenset[Hit]] = {}
 
-    def hits(self) -> set[tuple[InfractionKind, str]]:
+    def hits(self) -> frozenset[Hit]:
         """Everything that the car touches now, tyres on the road left out.
 
         Returns:
             Kind and name of each thing; all kerbs share the name "kerb", so one scrape is one event.
         """
-        found = set()
-        for pair in self._data.contact.geom:
+        pairs = self._data.contact.geom
+        key = pairs.tobytes()  # a car on its wheels touches the same again and again
+        if key not in self._met:
+            if len(self._met) >= _MOST_MET:
+                self._met.clear()
+            self._met[key] = frozenset(self._hits_of(pairs))
+        return self._met[key]
+
+    def _hits_of(self, pairs: np.ndarray) -> set[Hit]:
+        """What pairs of geoms that touch mean, shape (N, 2)."""
+        found: set[Hit] = set()
+        for pair in pairs:
             roles = {int(role) for role in self._role[pair]}
             if roles == _TYRE_ON_ROAD or not roles & {_HULL, _TYRE}:
                 continue

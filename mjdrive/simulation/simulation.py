@@ -13,7 +13,7 @@ from mjdrive.config import SimulationConfig
 from mjdrive.datatypes import Action, Infraction, Observation, Signal, Town, VehicleState
 from mjdrive.errors import RouteError
 from mjdrive.simulation import scene
-from mjdrive.simulation.contacts import ContactWatch
+from mjdrive.simulation.contacts import ContactWatch, Hit
 from mjdrive.simulation.lamps import set_lamps
 from mjdrive.simulation.rules import Rules
 from mjdrive.town import library, signals
@@ -75,6 +75,7 @@ class Simulation:
         self._projector = BevProjector(town, control_interval=self.config.control_interval)
         self._rules = Rules(town, self.car.parameters)
         self._contacts = ContactWatch(self.model, self.data)
+        self._warnings = self.data.warning.number  # memory of MuJoCo
         self._num_steps = 0
         self._action = _STANDING
         self._shown: Mapping[str, Signal] = {}
@@ -144,22 +145,22 @@ class Simulation:
         """
         config = self.config
         self._action = Action(
-            acceleration=float(np.clip(action.acceleration, -1.0, 1.0)),
-            steering=float(np.clip(action.steering, -1.0, 1.0)),
+            acceleration=min(max(float(action.acceleration), -1.0), 1.0),
+            steering=min(max(float(action.steering), -1.0), 1.0),
         )
         self.car.command(self._action)
-        hits = set()
+        hits: set[Hit] = set()
+        num_substeps = round(config.car_update_interval / config.timestep)
         for _ in range(round(config.control_interval / config.car_update_interval)):
             self.car.update()
-            mujoco.mj_step(
-                self.model, self.data, round(config.car_update_interval / config.timestep)
-            )
+            mujoco.mj_step(self.model, self.data, num_substeps)
             hits |= self._contacts.hits()
-        require_sane(self.data)
+        if np.count_nonzero(self._warnings):
+            require_sane(self.data)
         self._num_steps += 1
         self._light_lamps()
         return self._rules.check(
-            time=self.time, vehicle=self.vehicle, lights=self.lights, hits=sorted(hits)
+            time=self.time, vehicle=self.vehicle, lights=self._shown, hits=sorted(hits)
         )
 
     @property
@@ -193,8 +194,11 @@ class Simulation:
         bev = self._projector.project(
             x=vehicle.x, y=vehicle.y, yaw=vehicle.yaw, time=self.time, light_phase=self.light_phase
         )
-        state = (vehicle.speed, self._action.acceleration, self._action.steering)
-        return Observation(bev=bev, state=np.array(state, np.float32))
+        state = np.array(
+            (vehicle.speed, self._action.acceleration, self._action.steering), np.float32
+        )
+        bev.flags.writeable = state.flags.writeable = False  # nobody else has them: no need to copy
+        return Observation(bev=bev, state=state)
 
     def save(self) -> Snapshot:
         """Take a snapshot to return to."""
@@ -212,6 +216,6 @@ class Simulation:
     def _light_lamps(self) -> None:
         """Let the lamps of the scene show what the lights show, for whoever renders it."""
         lights = self.lights
-        if lights != self._shown:
+        if lights is not self._shown:
             set_lamps(self.model, self.town, lights)
             self._shown = lights

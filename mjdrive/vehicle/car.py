@@ -52,13 +52,22 @@ class Car:
         self._rack_qpos = model.joint("steer").qposadr[0]
         self._throttle_act = model.actuator("throttle").actadr[0]
         self._brake_act = model.actuator("brake").actadr[0]
-        self._ctrl = [model.actuator(name).id for name in ("throttle", "brake", "steering")]
+        self._throttle, self._brake, self._steering = (
+            model.actuator(name).id for name in ("throttle", "brake", "steering")
+        )
         # Memory of MuJoCo, read and written number by number: four are done before numpy has begun.
         self._qvel, self._act = _numbers(data.qvel), _numbers(data.act)
+        self._ctrl = _numbers(data.ctrl)
+        self._pose, self._motion = data.qpos, data.qvel
+        self._rotation = np.empty(9)
+        self._seen: tuple[bytes, VehicleState] | None = None
         self._friction = _numbers(model.dof_frictionloss)
         self._force = _numbers(data.xfrc_applied[self._body])
         half, front = 0.5 * parameters.brake_torque, parameters.brake_front_share
-        self._brake_torque = [half * front] * 2 + [half * (1.0 - front)] * 2
+        torques = [half * front] * 2 + [half * (1.0 - front)] * 2
+        self._brake_torque = list(zip(self._spin_dof, torques, strict=True))
+        self._radius = parameters.wheel_radius
+        self._drag = -0.5 * AIR_DENSITY * parameters.drag_area
         self._tyre_speeds = [0.0] * 4
         self._brake_applied = 0.0
         self._holding = False
@@ -94,33 +103,42 @@ class Car:
         """
         acceleration = min(max(action.acceleration, -1.0), 1.0)
         steering = min(max(action.steering, -1.0), 1.0)
-        self._data.ctrl[self._ctrl] = max(acceleration, 0.0), max(-acceleration, 0.0), steering
+        self._ctrl[self._throttle] = max(acceleration, 0.0)
+        self._ctrl[self._brake] = max(-acceleration, 0.0)
+        self._ctrl[self._steering] = steering
 
     def update(self) -> None:
         """Renew brakes, air drag, tyres and standstill hold from the state; call it some fifty times a second."""
-        qvel, radius = self._qvel, self.parameters.wheel_radius
-        x_speed, y_speed = qvel[0], qvel[1]
+        radius, qvel = self._radius, self._qvel.tolist()
+        x_speed, y_speed, *_ = qvel
         travel = math.hypot(x_speed, y_speed)
         rolling = [abs(qvel[dof]) for dof in self._spin_dof]
         brake = self._act[self._brake_act]
-        drag = -0.5 * AIR_DENSITY * self.parameters.drag_area * travel
+        drag = self._drag * travel
         self._force[0], self._force[1] = drag * x_speed, drag * y_speed
         self._apply([max(travel, rate * radius) for rate in rolling], brake)
         self._hold(travel + max(rolling), brake)
-        self._surroundings.update(self._data)
+        self._surroundings.update(self._pose.tolist(), speed=travel)
 
     def state(self) -> VehicleState:
         """Read where the car is and how it moves, at the rear axle."""
-        qpos, qvel = self._data.qpos, self._data.qvel
+        key = self._pose.tobytes() + self._motion.tobytes()
+        if self._seen is None or self._seen[0] != key:  # rules, views and policies all ask
+            self._seen = key, self._read()
+        return self._seen[1]
+
+    def _read(self) -> VehicleState:
+        qpos, qvel = self._pose.tolist(), self._qvel
         world_from_car = self._world_from_car()
-        yaw = float(np.arctan2(world_from_car[1, 0], world_from_car[0, 0]))
+        forward_x, _, _, forward_y, *_ = self._rotation.tolist()
+        yaw = float(np.arctan2(forward_y, forward_x))
         return VehicleState(
-            x=float(qpos[0]),
-            y=float(qpos[1]),
+            x=qpos[0],
+            y=qpos[1],
             yaw=wrap_angle(yaw),
-            speed=float(np.cos(yaw) * qvel[0] + np.sin(yaw) * qvel[1]),
-            yaw_rate=float(world_from_car[2] @ qvel[3:6]),
-            steering_angle=float(qpos[self._rack_qpos]),
+            speed=math.cos(yaw) * qvel[0] + math.sin(yaw) * qvel[1],
+            yaw_rate=float(world_from_car[2] @ self._motion[3:6]),
+            steering_angle=qpos[self._rack_qpos],
         )
 
     def save(self) -> Float[np.ndarray, " S"]:
@@ -148,7 +166,8 @@ class Car:
         self._holding = bool(written[5])
         self._model.eq_data[self._lock, 0] = written[6:]
         mujoco.mj_setState(self._model, self._data, physics, _STATE)
-        self._surroundings.update(self._data)
+        x_speed, y_speed, *_ = self._qvel.tolist()
+        self._surroundings.update(self._pose.tolist(), speed=math.hypot(x_speed, y_speed))
         mujoco.mj_forward(self._model, self._data)
         mujoco.mj_setState(
             self._model, self._data, physics, _STATE
@@ -176,9 +195,8 @@ class Car:
 
     def _world_from_car(self) -> Float[np.ndarray, "3 3"]:
         """Rotation of the body, from the state itself: derived quantities of MuJoCo lag by a step."""
-        rotation = np.empty(9)
-        mujoco.mju_quat2Mat(rotation, self._data.qpos[3:7])
-        return rotation.reshape(3, 3)
+        mujoco.mju_quat2Mat(self._rotation, self._pose[3:7])
+        return self._rotation.reshape(3, 3)
 
     def _to_world(self, points: list[list[float]]) -> Float[np.ndarray, "N 2"]:
         state = self.state()
@@ -188,7 +206,7 @@ class Car:
         # Coulomb friction in the spin joints is solved together with the contacts: it holds at standstill and never
         # drives the wheel backwards, which a velocity servo or a damper would.
         rolling = self.parameters.rolling_torque
-        for dof, full in zip(self._spin_dof, self._brake_torque, strict=True):
+        for dof, full in self._brake_torque:
             self._friction[dof] = rolling + brake * full
         self._tyres.schedule(tyre_speeds)
         self._tyre_speeds, self._brake_applied = tyre_speeds, brake

@@ -47,7 +47,10 @@ def require_sane(data: mujoco.MjData) -> None:
     Raises:
         PhysicsError: If MuJoCo met values that are not numbers, or ran out of memory for contacts.
     """
-    broken = [kind.name for kind in _FATAL if data.warning[kind].number]
+    counts = data.warning.number
+    if not counts.any():
+        return
+    broken = [kind.name for kind in _FATAL if counts[kind]]
     if broken:
         raise PhysicsError(
             f"The physics broke at {data.time:.3f} s ({', '.join(broken)}); expected finite motion. "

@@ -8,6 +8,8 @@ contact a tyre with cornering stiffness C, saturated by the friction circle, tha
 R_n stays far above A: then the normal row is the tyre's spring, and sliding does not make the contact hover.
 """
 
+from typing import NamedTuple
+
 import mujoco
 import numpy as np
 
@@ -23,19 +25,42 @@ OTHER_REGULARIZATION = 1.0  # R_n against kerbs, walls and poles [1/kg]
 OTHER_DAMPING = 100.0  # against the same [N s/m]
 
 
+class _Row(NamedTuple):
+    """The pair of one tyre with the road.
+
+    Attributes:
+        weight: Inverse weight of the wheel [1/kg].
+        solimp: Memory of the model.
+        solref: Memory of the model.
+        solref_friction: Memory of the model.
+    """
+
+    weight: float
+    solimp: "memoryview[float]"
+    solref: "memoryview[float]"
+    solref_friction: "memoryview[float]"
+
+
 class Tyres:
     """Writes the tyre law into the four tyre-road pairs of a model."""
 
     def __init__(self, model: mujoco.MjModel, parameters: VehicleParameters) -> None:
         wheels = [model.body(f"wheel_{wheel}").id for wheel in WHEELS]
         self._model = model
+        self._option = model.opt
         first, *_, last = pairs = [model.pair(f"tyre_{wheel}").id for wheel in WHEELS]
         assert pairs == list(range(first, last + 1)), "the pairs of the tyres follow each other"
         self._inverse_weight = model.body_invweight0[wheels, 0].tolist()
-        # Memory of the model, and lists: four numbers are faster one by one than as arrays.
-        self._solimp = memoryview(model.pair_solimp[first : last + 1])
-        self._solref = memoryview(model.pair_solref[first : last + 1])
-        self._solref_friction = memoryview(model.pair_solreffriction[first : last + 1])
+        # Memory of the model, written row by row: four rows are done before numpy has begun.
+        self._rows = [
+            _Row(
+                weight=weight,
+                solimp=memoryview(model.pair_solimp[pair]),
+                solref=memoryview(model.pair_solref[pair]),
+                solref_friction=memoryview(model.pair_solreffriction[pair]),
+            )
+            for pair, weight in zip(pairs, self._inverse_weight, strict=True)
+        ]
         model.pair_solreffriction[first : last + 1, 0] = -1.0
         self._spring = parameters.tyre_vertical_stiffness
         self._damping = parameters.tyre_vertical_damping
@@ -57,16 +82,18 @@ class Tyres:
             for speed, per_speed in zip(speeds, self._per_speed, strict=True)
         ]
         ratio = max(IMPEDANCE_RATIO, MIN_NORMAL_REGULARIZATION / min(friction))
-        self._model.opt.impratio = ratio
-        solimp, solref, solref_friction = self._solimp, self._solref, self._solref_friction
-        for row, weight in enumerate(self._inverse_weight):
-            regularization = ratio * friction[row]
+        self._option.impratio = ratio
+        spring, damping, slip_damping = -self._spring, -self._damping, -self._slip_damping
+        for (weight, solimp, solref, solref_friction), softness in zip(
+            self._rows, friction, strict=True
+        ):
+            regularization = ratio * softness
             impedance = weight / (weight + regularization)
             scale = regularization * impedance
-            solimp[row, 0] = solimp[row, 1] = impedance
-            solref[row, 0] = -self._spring * scale
-            solref[row, 1] = -self._damping * scale
-            solref_friction[row, 1] = -self._slip_damping * impedance
+            solimp[0] = solimp[1] = impedance
+            solref[0] = spring * scale
+            solref[1] = damping * scale
+            solref_friction[1] = slip_damping * impedance
 
     def _soften_other_contacts(self, geoms: list[int]) -> None:
         """Give a tyre the same spring against kerbs and walls; a rigid one would kick three times as hard."""

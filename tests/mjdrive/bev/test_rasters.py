@@ -1,6 +1,4 @@
-import runpy
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,6 +6,7 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mjdrive.benchmarks.naive_bev import PlainProjector
 from mjdrive.bev.layers import Layer
 from mjdrive.bev.projector import BevProjector
 from mjdrive.bev.rasters import (
@@ -21,8 +20,6 @@ from mjdrive.config import BevConfig
 from mjdrive.datatypes import Lane, Town
 from mjdrive.errors import ConfigError, TownFormatError
 from mjdrive.town import library
-
-BENCH = Path(__file__).resolve().parents[3] / "scripts" / "bench" / "bev.py"
 
 
 def layers_of(town: Town, **settings: object) -> list[np.ndarray]:
@@ -67,7 +64,7 @@ def test_a_pixel_of_the_view_shows_what_any_of_the_four_drawn_pixels_around_it_s
 def test_views_are_those_of_one_plain_warp_a_channel_but_for_single_pixels(name):
     # The plain way rounds to 8 bits, so a pixel that is touched by less than 1/510 of its weight stays dark there.
     town = library.load(name)
-    plain = runpy.run_path(str(BENCH))["PlainProjector"](town)
+    plain = PlainProjector(town)
     projector = BevProjector(town)
     rng = np.random.default_rng(0)
     for pose in random_poses(town, 300):
