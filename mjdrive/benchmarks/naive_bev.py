@@ -55,7 +55,7 @@ class PlainProjector:
             for layer, steps in zip(LIGHT_LAYERS, self._config.history_steps, strict=True):
                 clock = max(time - steps * 0.1, 0.0) + light_phase
                 value = LIGHT_VALUES[signals.at(self._lights[index], clock)]
-                cv2.line(bev[layer], *ends, value, thickness)
+                cv2.line(bev[layer], ends[0], ends[1], value, thickness)
         return bev
 
     def _view_from_world(self, x: float, y: float, yaw: float) -> Float[np.ndarray, "3 3"]:
