@@ -8,12 +8,9 @@ Example: python scripts/check_experts.py --expert pid --expert mpc --seeds 10 --
 
 import dataclasses
 import json
-import multiprocessing
-import os
 import statistics
 import sys
-from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from pathlib import Path
 
@@ -21,6 +18,7 @@ import click
 import numpy as np
 
 from mjdrive.cli.console import progress_bars
+from mjdrive.cli.options import Jobs, chosen_executor, executor_options
 from mjdrive.cli.solving import solve_rows
 from mjdrive.config import CollectConfig
 from mjdrive.datatypes import Policy, Situation
@@ -29,6 +27,7 @@ from mjdrive.episodes.plan import lay_routes
 from mjdrive.errors import RouteError
 from mjdrive.evaluation import lane_keeping
 from mjdrive.evaluation.light_behaviour import is_rash, light_passages
+from mjdrive.execution.work import Tell
 from mjdrive.expert import experts
 from mjdrive.expert.solves import SOLVER, SOLVES
 from mjdrive.files import write_atomically
@@ -39,8 +38,29 @@ from mjdrive.vehicle import cars
 LATEST_START = 1.0
 """A car that waited moves within this time of green [s]."""
 
-Job = tuple[str, str, str, str, int]
-"""Expert, car, town, route and light seed of one drive."""
+
+@dataclasses.dataclass(frozen=True)
+class Job:
+    """Expert, car, town, route and light seed of one drive."""
+
+    expert: str
+    car: str
+    town: str
+    route: str
+    seed: int
+
+    @property
+    def name(self) -> str:
+        """All of it in words."""
+        return f"{self.expert} {self.car} {self.town} {self.route} seed {self.seed}"
+
+
+class Checking:
+    """What a process has to know to check drives: nothing."""
+
+    def begin(self) -> Callable[[Job, Tell], "Drive"]:
+        """Nothing to prepare: a simulation is made when the first job asks for it."""
+        return lambda job, tell: drive(job)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -83,8 +103,8 @@ def ready(expert: str, car: str, town_name: str) -> tuple[Simulation, Policy[Sit
 
 def drive(job: Job) -> Drive:
     """Drive one route with one light seed, undisturbed, and look at it."""
-    expert_name, car, town_name, route_name, seed = job
-    simulation, expert = ready(expert_name, car, town_name)
+    expert_name, town_name, route_name, seed = job.expert, job.town, job.route, job.seed
+    simulation, expert = ready(expert_name, job.car, town_name)
     town = simulation.town
     settings = CollectConfig(
         routes=(route_name,), disturbance=None, expert=experts.known(expert_name)
@@ -150,7 +170,7 @@ def solves(drives: Sequence[Drive]) -> str:
 @click.option("--town", "towns", multiple=True, default=("town01", "town02"), show_default=True)
 @click.option("--car", default="default", show_default=True)
 @click.option("--seeds", "num_seeds", default=10, show_default=True, help="Light seeds 0, 1, ...")
-@click.option("--jobs", default=os.cpu_count(), show_default=True, help="Drives at a time.")
+@executor_options
 @click.option("--out", type=click.Path(path_type=Path), help="JSON file for every drive.")
 def main(
     *,
@@ -158,24 +178,27 @@ def main(
     towns: tuple[str, ...],
     car: str,
     num_seeds: int,
-    jobs: int,
+    jobs: Jobs,
+    backend: str,
+    address: str | None,
     out: Path | None,
 ) -> None:
     """Drive every route under every seed and print a table."""
     plan = [
-        (experts.known(name), car, town, route, seed)
+        Job(experts.known(name), car, town, route, seed)
         for name in names
         for town in towns
         for route in library.load_settings(town).routes
         for seed in range(num_seeds)
     ]
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(jobs, mp_context=context) as pool, progress_bars() as bars:
+    executor = chosen_executor(jobs, backend, address)
+    found: dict[Job, Drive] = {}
+    with progress_bars() as bars:
         task = bars.add_task("experts", total=len(plan), unit="drives")
-        drives = []
-        for done in pool.map(drive, plan):
-            drives.append(done)
+        for job, done in executor.run(Checking(), plan, on_progress=lambda job, steps: None):
+            found[job] = done
             bars.advance(task)
+    drives = [found[job] for job in plan]
     print(
         "| expert | town | flawless | infractions | off road [s] | rash | slowest start [s] ",
         end="",

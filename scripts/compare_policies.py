@@ -6,55 +6,32 @@ junction.
 Example: python scripts/compare_policies.py pid runs/bc-beta runs/ibc runs/da-ibc --out drives/comparison
 """
 
-import multiprocessing
-import os
-import statistics
-from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import click
 
+from mjdrive import versions
+from mjdrive.cli.console import episode_bars
 from mjdrive.cli.driver import find_driver
-from mjdrive.evaluation import report
+from mjdrive.cli.options import Jobs, chosen_executor, executor_options
+from mjdrive.datatypes import Town
+from mjdrive.evaluation.drives import Driving, PlannedDrive, make_drives
 from mjdrive.evaluation.metrics import DriveSummary
+from mjdrive.evaluation.spread import FIGURES, summarise_drives
 from mjdrive.expert import experts
 from mjdrive.town import library
-
-COLUMNS = (
-    "distance_m",
-    "red_lights",
-    "collisions",
-    "kerb_strikes",
-    "off_road_s",
-    "stuck_s",
-    "score",
-)
-LEAST_DISTANCE = 100.0
-"""A drive shorter than this is not clean, it is no drive [m]."""
+from mjdrive.vehicle import cars
 
 
-def drive_once(job: tuple[str, str | None, str, int, int, Path]) -> DriveSummary:
-    """Drive one policy with one seed into a folder of its own."""
-    policy, preset, town_name, num_steps, seed, folder = job
-    town = library.load(town_name)
-    driver = find_driver(policy, Path("runs"), preset=preset)
-    episode = driver.drive(town, num_steps=num_steps, seed=seed, on_step=lambda done: None)
-    return report.write_drive(episode, town, folder)
-
-
-def as_row(name: str, drives: list[DriveSummary], num_branches: int) -> str:
+def as_row(name: str, drives: list[DriveSummary], town: Town) -> str:
     """One line of the table, in Markdown."""
-    cells = [name]
-    for column in COLUMNS:
-        values = [float(getattr(drive, column)) for drive in drives]
-        spread = statistics.stdev(values) if len(values) > 1 else 0.0
-        cells.append(f"{statistics.mean(values):.1f} ± {spread:.1f}")
-    taken = {branch for drive in drives for branch in drive.branches_taken}
-    is_clean = [
-        drive.distance_m >= LEAST_DISTANCE and drive.collisions == 0 and drive.off_road_s == 0
-        for drive in drives
+    summary = summarise_drives(drives, town)
+    cells = [
+        name,
+        *(str(summary.figures[column]) for column in FIGURES),
+        f"{len(summary.branches_taken)} of {summary.branches}",
+        f"{summary.clean} of {summary.episodes}",
     ]
-    cells += [f"{len(taken)} of {num_branches}", f"{sum(is_clean)} of {len(drives)}"]
     return f"| {' | '.join(cells)} |"
 
 
@@ -64,7 +41,7 @@ def as_row(name: str, drives: list[DriveSummary], num_branches: int) -> str:
 @click.option("--steps", "num_steps", default=3000, show_default=True)
 @click.option("--seeds", "num_seeds", default=5, show_default=True, help="Seeds 0, 1, ...")
 @click.option("--preset", help="How trained policies choose their actions.")
-@click.option("--jobs", default=os.cpu_count(), show_default=True, help="Drives at a time.")
+@executor_options
 @click.option("--out", type=click.Path(path_type=Path), default=Path("drives/comparison"))
 def main(
     *,
@@ -73,30 +50,29 @@ def main(
     num_steps: int,
     num_seeds: int,
     preset: str | None,
-    jobs: int,
+    jobs: Jobs,
+    backend: str,
+    address: str | None,
     out: Path,
 ) -> None:
     """Compare policies on the same starts, lights and seeds."""
-    os.environ["OMP_NUM_THREADS"] = "1"  # one drive a core is quicker than one drive on all
-    plan = [
-        (policy, acting, town_name, num_steps, seed, out / f"{Path(policy).name}-{seed}")
-        for policy, acting in (
-            (name, None if name in experts.NAMES else preset) for name in policies
-        )
-        for seed in range(num_seeds)
-    ]
-    for job in plan:
-        report.require_new(job[-1])
-    print(f"| policy | {' | '.join(COLUMNS)} | branches, all seeds | clean drives |")
-    print(f"|{'---|' * (len(COLUMNS) + 3)}")
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(jobs, mp_context=context) as pool:
-        drives = list(pool.map(drive_once, plan))
-    lanes = library.load(town_name).lanes.values()
-    num_branches = sum(lane.junction is not None for lane in lanes)
-    for index, policy in enumerate(policies):
-        of_policy = drives[index * num_seeds : (index + 1) * num_seeds]
-        print(as_row(Path(policy).name, of_policy, num_branches))
+    town, car = library.load(town_name), cars.load()
+    executor = chosen_executor(jobs, backend, address)
+    planned = [PlannedDrive(f"seed-{seed}", seed) for seed in range(num_seeds)]
+    print(f"| policy | {' | '.join(FIGURES.values())} | branches, all seeds | clean drives |")
+    print(f"|{'---|' * (len(FIGURES) + 3)}")
+    for name in policies:
+        driver = find_driver(name, Path("runs"), preset=None if name in experts.NAMES else preset)
+        with episode_bars(driver.name, total=num_seeds) as progress:
+            drives = make_drives(
+                Driving(driver, town, car, num_steps, versions.versions()),
+                planned,
+                out / Path(name).name,
+                description={"town": town.name, **driver.metadata(town, car, num_steps)},
+                executor=executor,
+                report_progress=progress,
+            )
+        print(as_row(driver.name, drives, town))
 
 
 if __name__ == "__main__":
