@@ -17,12 +17,13 @@ from models.config import Precision
 from models.energy import HIDDEN_SIZE, EnergyHead
 from models.steady_linear import steady_linear
 
-# Hidden layers of this many candidates are 1 MB (bfloat16) and 2 MB (float32).
-ROWS_AT_A_TIME = 2048
+# Hidden layers of this many candidates are 0.5 MB (bfloat16) and 1 MB (float32).
+ROWS_AT_A_TIME = 1024
 # On a GPU there is nothing to keep in a cache, and every piece costs launches.
 ROWS_AT_A_TIME_CUDA = 2**18
-# Columns of the first product in bfloat16: hi, lo and hi again of the action, three ones, and zeros up to 16.
-SPLIT_COLUMNS = 16
+# In bfloat16 the hidden layer has units that are always 1, whose weights are the bias of the next layer: that is
+# quicker than adding one. Two are needed; 16 fill the registers.
+CONSTANT_UNITS = 16
 
 
 def resolved(precision: Precision, device: torch.device | str = "cpu") -> Precision:
@@ -92,18 +93,18 @@ class EnergyScorer:
 
     def _score_bfloat16(self, observed: Tensor, actions: Tensor, energies: Tensor) -> None:
         """As `_score_float32`; the sums inside a product are float32 all the same."""
-        first = _split_weight(self._action_weight, observed)
-        second, bias = self._second.weight.bfloat16().t(), self._second.bias.bfloat16()
-        shape = (min(self._rows, len(actions)), HIDDEN_SIZE)
-        hidden = torch.empty((2, *shape), dtype=torch.bfloat16, device=actions.device)
-        single = actions.new_empty(shape)
+        first = _split_first(self._action_weight, observed)
+        second = _split_second(self._second.weight, self._second.bias)
+        num_rows = min(self._rows, len(actions))
+        hidden = torch.empty(num_rows, len(second), dtype=torch.bfloat16, device=actions.device)
+        halves = hidden.new_empty(num_rows, HIDDEN_SIZE)
+        singles = actions.new_empty(num_rows, HIDDEN_SIZE)
         for piece, out in _pieces(self._rows, _split_actions(actions), energies):
-            one, two = hidden[:, : len(piece)]
+            one, two, single = (buffer[: len(piece)] for buffer in (hidden, halves, singles))
             _relu_(torch.mm(piece, first, out=one))
-            _relu_(torch.addmm(bias, one, second, out=two))
+            _relu_(torch.mm(one, second, out=two))
             # Energies differ by less than bfloat16 resolves.
-            single[: len(piece)] = two
-            self._last_layer(single[: len(piece)], out)
+            self._last_layer(single.copy_(two), out)
 
     def _last_layer(self, hidden: Tensor, energies: Tensor) -> None:
         """Write the energies (N) of hidden units (N, H), which are overwritten.
@@ -124,31 +125,41 @@ def _relu_(hidden: BFloat16[Tensor, "N H"]) -> None:
     hidden.view(torch.int16).clamp_(min=0)
 
 
-def _parts(x: Tensor, count: int) -> list[Tensor]:
-    """Numbers in bfloat16 whose sum is a float32 number, the largest first; each gives 8 more of its 24 bits."""
-    parts = []
-    for _ in range(count):
-        parts.append(x.bfloat16())
-        x = x - parts[-1]
-    return parts
+def _parts(x: Tensor) -> tuple[Tensor, Tensor]:
+    """A float32 number as the sum of two in bfloat16, the second of which is small: 16 of its 24 bits."""
+    high = x.bfloat16()
+    return high, (x - high).bfloat16()
 
 
-def _split_actions(actions: Float[Tensor, "N 2"]) -> BFloat16[Tensor, "N K"]:
-    """Actions as rows for `_split_weight`: rounding them to 8 bits would move a candidate by up to 0.002."""
-    rows = torch.zeros(len(actions), SPLIT_COLUMNS, dtype=torch.bfloat16, device=actions.device)
-    rows[:, 6:9] = 1
-    # Both numbers of an action in bfloat16 are one integer of 32 bits, which is quicker to copy.
-    high, low = (part.contiguous().view(torch.int32)[:, 0] for part in _parts(actions, 2))
-    pairs = rows.view(torch.int32)
-    pairs[:, 0], pairs[:, 1], pairs[:, 2] = high, low, high
-    return rows
+def _split_actions(actions: Float[Tensor, "N 2"]) -> BFloat16[Tensor, "N 8"]:
+    """Actions y as rows [high, low, high, 1, 1] for `_split_first`.
+
+    Rounding y itself to bfloat16 would move a candidate by up to 0.002.
+    """
+    high, low = _parts(actions)
+    ones = torch.ones_like(high[:1])
+    # Both numbers of an action in bfloat16 are one integer of 32 bits, and integers are quicker to join.
+    highs, lows, ones = (part.contiguous().view(torch.int32) for part in (high, low, ones))
+    return torch.cat((highs, lows, highs, ones.expand(len(actions), 1)), dim=1).view(torch.bfloat16)
 
 
-def _split_weight(
+def _split_first(
     action_weight: Float[Tensor, "H 2"], observed: Float[Tensor, " H"]
-) -> BFloat16[Tensor, "K H"]:
-    """W_a and W_x x for one product: rows @ this = W_a y + W_x x, short only of the product of both low parts."""
-    high, low = _parts(action_weight, 2)
-    whole = torch.stack(_parts(observed, 3), dim=1)
-    columns = torch.cat((high, high, low, whole), dim=1)
-    return F.pad(columns, (0, SPLIT_COLUMNS - columns.shape[1])).t()
+) -> BFloat16[Tensor, "8 G"]:
+    """Weights of the first layer: rows @ this = W_a y + W_x x, short only of the product of both low parts.
+
+    The constant units behind it take the first of the two ones.
+    """
+    high, low = _parts(action_weight.t())
+    units = torch.cat((high, high, low, torch.stack(_parts(observed))))  # (8, H)
+    constant = units.new_zeros(len(units), CONSTANT_UNITS)
+    constant[6] = 1
+    return torch.cat((units, constant), dim=1)
+
+
+def _split_second(
+    weight: Float[Tensor, "H H"], bias: Float[Tensor, " H"]
+) -> BFloat16[Tensor, "G H"]:
+    """Weights of the second layer, then its bias in two parts for two of the constant units, and zeros."""
+    rows = torch.cat((weight.t().bfloat16(), torch.stack(_parts(bias))))
+    return F.pad(rows, (0, 0, 0, CONSTANT_UNITS - 2))

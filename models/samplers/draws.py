@@ -48,19 +48,15 @@ def draw_ascending(
         Devroye, Non-Uniform Random Variate Generation, 1986, chapter V.3.1: normalised sums of exponential spacings are
         distributed as sorted uniform numbers.
     """
-    unit = torch.rand(
-        (len(probabilities), num_draws + 1),
-        generator=generator,
-        device=probabilities.device,
-        dtype=torch.float64,
-    )
-    sums = unit.neg_().log1p_().neg_().cumsum(dim=1)
+    shape = (len(probabilities), num_draws + 1)
+    unit = torch.rand(shape, generator=generator, device=probabilities.device)
+    sums = unit.neg_().log1p_().neg_().cumsum(dim=1, dtype=torch.float64)
     return _invert(probabilities, sums[:, :-1] / sums[:, -1:])
 
 
 def _invert(probabilities: Float[Tensor, "B N"], unit: Float[Tensor, "B S"]) -> Int[Tensor, "B S"]:
     """The indices at which the cumulative sum passes the unit numbers."""
-    cumulative = probabilities.double().cumsum(dim=1)
+    cumulative = probabilities.cumsum(dim=1, dtype=torch.float64)
     # side="right" skips indices of probability zero; the clamp meets a draw at the very end.
     drawn = torch.searchsorted(cumulative, unit * cumulative[:, -1:], right=True)
     return drawn.clamp_(max=probabilities.shape[1] - 1)
