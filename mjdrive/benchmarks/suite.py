@@ -40,6 +40,12 @@ SUITE = (
     Benchmark("metadrive-192", "MetaDrive, view of 192 x 192 x 5", "rivals:metadrive_192"),
     Benchmark("car-racing", "Gymnasium's CarRacing", "rivals:car_racing"),
     Benchmark("intersection", "highway-env's intersection", "rivals:intersection"),
+    Benchmark(
+        "collect", "the paper's ten routes: time, and size on the disk", "collecting:measure"
+    ),
+    Benchmark("dfo", "a decision by the paper's search", "dfo:measure"),
+    Benchmark("grid", "a decision by the exact softmax on a grid", "grid:measure"),
+    Benchmark("drive", "3000 steps of driving with a policy", "closed_loop:measure"),
 )
 """In the order of the table."""
 
