@@ -83,6 +83,22 @@ MISTAKES = {
         ["drive", "--town", "town02", "--policy", "pd"],
         "policy 'pd'.*Did you mean 'pid'",
     ),
+    "jobs for a single drive": (
+        ["drive", "--town", "town02", "--policy", "pid", "--jobs", "2"],
+        "expected --episodes N with them",
+    ),
+    "unknown backend": (
+        ["collect", "--town", "town02", "--backend", "slrm"],
+        "backend 'slrm'.*Did you mean 'slurm'",
+    ),
+    "address without a cluster": (
+        ["collect", "--town", "town02", "--address", "10.0.0.7:6379"],
+        "no effect with --backend local",
+    ),
+    "dead address": (
+        ["collect", "--town", "town02", "--backend", "ray", "--address", "127.0.0.1:1"],
+        "Nobody answers at '127.0.0.1:1'.*ray start --head",
+    ),
     "folder that is no run": (
         ["drive", "--town", "town02", "--policy", "."],
         "no complete training run",
