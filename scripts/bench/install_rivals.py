@@ -11,6 +11,7 @@ import subprocess
 import sys
 import time
 import venv
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import click
@@ -49,10 +50,13 @@ def install(name: str, folder: Path) -> float:
 )
 def main(*, names: tuple[str, ...], folder: Path) -> None:
     """Install rivals."""
-    for name in names or NAMES:
-        print(f"{name} ...", flush=True)
+    wanted = names or NAMES
+    print(f"Installing {', '.join(wanted)} into {folder} ...", flush=True)
+    with ThreadPoolExecutor() as threads:  # most of it is waiting for the network
+        jobs = {name: threads.submit(install, name, folder) for name in wanted}
+    for name, job in jobs.items():
         try:
-            print(f"{name}: {install(name, folder):.0f} s, {folder / name}")
+            print(f"{name}: {job.result():.0f} s")
         except subprocess.CalledProcessError as error:
             sys.exit(f"{name} could not be installed: pip ended with {error.returncode}.")
 
