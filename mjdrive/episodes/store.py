@@ -6,7 +6,7 @@
         actions              Episode.actions  (T, 2)
         states               Episode.physics  (T, S)
         dones                1 at the last step, else 0  (T,)
-        labels               Episode.labels   (T, 2)
+        labels               Episode.labels   (T, 2); a second name of `actions` where they are equal
         obs/vehicle          Episode.vehicle  (T, 6)
         obs/time             Episode.time     (T,)
         obs/on_lane          Episode.on_lane  (T,)
@@ -95,7 +95,10 @@ def to_bytes(episode: Episode) -> bytes:
         demo = data.create_group("demo_0")
         demo.attrs["num_samples"] = np.int64(len(episode.time))
         for name, field in _ARRAYS.items():
-            _put(demo, name, getattr(episode, field))
+            if field == "labels" and _are_the_same(episode.labels, episode.actions):
+                demo[name] = demo["actions"]
+            else:
+                _put(demo, name, getattr(episode, field))
         _put(demo, "dones", (np.arange(len(episode.time)) == len(episode.time) - 1).astype("u1"))
         _put_infractions(file.create_group("infractions"), episode.infractions)
         file.flush()
@@ -151,9 +154,21 @@ def _put(group: h5py.Group, name: str, array: np.ndarray) -> None:
     if array.size == 0:
         group.create_dataset(name, data=array)
         return
+    # Column by column: one quantity after the other packs to five sixths of all of them by turns, and in less time.
     group.create_dataset(
-        name, data=array, chunks=array.shape, compression="gzip", shuffle=True, fletcher32=True
+        name,
+        data=array,
+        chunks=(len(array), *(1 for _ in array.shape[1:])),
+        compression="gzip",
+        compression_opts=9,
+        shuffle=True,
+        fletcher32=True,
     )
+
+
+def _are_the_same(one: np.ndarray, other: np.ndarray) -> bool:
+    """Whether two arrays are equal bit by bit."""
+    return (one.dtype, one.shape, one.tobytes()) == (other.dtype, other.shape, other.tobytes())
 
 
 def _put_infractions(group: h5py.Group, infractions: tuple[Infraction, ...]) -> None:

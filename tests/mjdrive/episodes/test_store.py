@@ -143,3 +143,33 @@ def test_infraction_kinds_keep_their_numbers() -> None:
         "STUCK",
     ]
     assert Infraction.__slots__ == ("kind", "time", "x", "y", "cause")
+
+
+def test_labels_that_are_the_actions_are_kept_once(tmp_path: Path) -> None:
+    episode = make_episode(500)
+    clean = dataclasses.replace(episode, labels=episode.actions)
+    assert len(store.to_bytes(clean)) < len(store.to_bytes(episode)) - 500 * 8
+    assert_equal(store.from_bytes(store.to_bytes(clean), name="clean"), clean)
+    minus_zero = dataclasses.replace(
+        episode, actions=np.zeros((500, 2)), labels=np.full((500, 2), -0.0)
+    )
+    again = store.from_bytes(store.to_bytes(minus_zero), name="minus zero")
+    assert np.signbit(again.labels).all()
+
+
+def test_files_whose_arrays_were_packed_whole_are_still_read(tmp_path: Path) -> None:
+    episode = make_episode()
+    (tmp_path / "new.hdf5").write_bytes(store.to_bytes(episode))
+    with (
+        h5py.File(tmp_path / "new.hdf5") as new,
+        h5py.File(tmp_path / "old.hdf5", "w") as old,
+    ):
+        for name in new:
+            new.copy(name, old)
+        old.attrs.update(new.attrs)
+        states = old["data/demo_0/states"][()]
+        del old["data/demo_0/states"]
+        old["data/demo_0"].create_dataset(
+            "states", data=states, chunks=states.shape, compression="gzip", shuffle=True
+        )
+    assert_equal(store.read(tmp_path / "old.hdf5"), episode)
