@@ -39,11 +39,12 @@ class OffRoadWatch:
         """Whether a point of the world [m] lies on the road."""
         return bool(shapely.contains_xy(self._road, *point))
 
-    def check(self, centre: Point) -> str | None:
+    def check(self, centre: Point, *, in_lane: bool = False) -> str | None:
         """Judge one control step.
 
         Args:
             centre: Centre of the footprint, world frame [m].
+            in_lane: Whether it is known to lie well inside a lane.
 
         Returns:
             Name of the lane that was left, if the car has just left the road; empty if no lane is near.
@@ -51,7 +52,7 @@ class OffRoadWatch:
         if self._is_away:
             self._is_away = not shapely.contains_xy(self._inner_road, *centre)
             return None
-        if self.on_road(centre):
+        if in_lane or self.on_road(centre):
             self._last_on_road = centre
             return None
         self._is_away = True

@@ -13,6 +13,7 @@ from mjdrive.simulation.red_lights import RedLightWatch
 from mjdrive.simulation.standstill import StandstillWatch
 from mjdrive.simulation.touches import TouchWatch
 from mjdrive.simulation.wrong_way import WrongWayWatch
+from mjdrive.town.foothold import Foothold
 from mjdrive.town.lane_index import LaneIndex
 from mjdrive.vehicle.parameters import VehicleParameters
 
@@ -37,7 +38,8 @@ class Rules:
         )
         self._touches = TouchWatch(self.config)
         self._off_road = OffRoadWatch(town, index, self.config)
-        self._wrong_way = WrongWayWatch(index, self.config)
+        self._foothold = Foothold(index)
+        self._wrong_way = WrongWayWatch(index, self._foothold, self.config)
         self._standstill = StandstillWatch(self.config)
 
     def reset(self) -> None:
@@ -72,11 +74,15 @@ class Rules:
             The breaches that are new in this step.
         """
         centre = self._centre(vehicle)
+        in_lane = self._foothold.holds(*centre, vehicle.yaw)
         causes = (
             (InfractionKind.RED_LIGHT, self._red_lights.check(centre, vehicle.yaw, lights)),
             *self._touches.check(time, (vehicle.x, vehicle.y), hits),
-            (InfractionKind.OFF_ROAD, self._off_road.check(centre)),
-            (InfractionKind.WRONG_WAY, self._wrong_way.check(centre, vehicle.yaw)),
+            (InfractionKind.OFF_ROAD, self._off_road.check(centre, in_lane=in_lane)),
+            (
+                InfractionKind.WRONG_WAY,
+                self._wrong_way.check(centre, vehicle.yaw, in_lane=in_lane),
+            ),
             (InfractionKind.STUCK, self._standstill.check(time, vehicle.speed)),
         )
         return tuple(

@@ -3,6 +3,7 @@
 import math
 
 from mjdrive.config import RulesConfig
+from mjdrive.town.foothold import LEAST_COSINE, Foothold
 from mjdrive.town.lane_index import LaneIndex, LanePlace
 
 Point = tuple[float, float]
@@ -18,11 +19,13 @@ class WrongWayWatch:
 
     Args:
         index: Lanes of the town.
+        foothold: Is set on the lane that fits, to know the next places on it at once.
         config: Limits of the rules.
     """
 
-    def __init__(self, index: LaneIndex, config: RulesConfig) -> None:
+    def __init__(self, index: LaneIndex, foothold: Foothold, config: RulesConfig) -> None:
         self._index = index
+        self._foothold = foothold
         self._limit = config.wrong_way_distance
         self._least_cosine = math.cos(config.wrong_way_angle)
         self.reset()
@@ -33,18 +36,25 @@ class WrongWayWatch:
         self._distance = 0.0
         self._before: Point | None = None
 
-    def check(self, centre: Point, yaw: float) -> str | None:
+    def check(self, centre: Point, yaw: float, *, in_lane: bool = False) -> str | None:
         """Judge one control step.
 
         Args:
             centre: Centre of the footprint, world frame [m].
             yaw: Heading of the car [rad].
+            in_lane: Whether it is known to lie well inside a lane and to follow it.
 
         Returns:
             Name of the lane that the car drives against, if that is new.
         """
+        if in_lane and not self._is_wrong and self._least_cosine <= LEAST_COSINE:
+            self._before, self._distance = None, 0.0
+            return None
         places = self._index.under(*centre)
-        fits = any(math.cos(yaw - place.yaw) >= self._least_cosine for place in places)
+        fitting = [it for it in places if math.cos(yaw - it.yaw) >= self._least_cosine]
+        fits = bool(fitting)
+        if fits:
+            self._foothold.set_on(fitting[0])
         if not places or fits is not self._is_wrong:
             self._before = None
             if places:

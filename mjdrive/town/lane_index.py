@@ -21,7 +21,7 @@ _SEAM = 0.01
 _SHORTEST_SEGMENT = 1e-9
 """Shorter segments, as a lane at the centre of its bend has them, count as points [m]."""
 
-_FRAME, _LENGTH, _HALF_WIDTHS = slice(0, 6), 6, slice(7, 9)
+_FRAME, _LENGTH, _HALF_WIDTHS, _STATION = slice(0, 6), 6, slice(7, 9), 9
 """Columns of the table of `_segments`."""
 
 
@@ -45,6 +45,30 @@ class LanePlace(NamedTuple):
     is_inside: bool
 
 
+class Segment(NamedTuple):
+    """One straight piece of a centre line.
+
+    Attributes:
+        row: Number of the segment in the town [-].
+        cos: Of its direction [-].
+        sin: Of its direction [-].
+        along_offset: Along it, `cos x + sin y + along_offset` past its start [m].
+        left_offset: To its left, `cos y - sin x + left_offset` from it [m].
+        length: Of it [m].
+        half_width: Half of the least width of the lane beside it [m].
+        yaw: Its direction [rad].
+    """
+
+    row: int
+    cos: float
+    sin: float
+    along_offset: float
+    left_offset: float
+    length: float
+    half_width: float
+    yaw: float
+
+
 class LaneIndex:
     """The centre lines of a town, cut into segments and sorted by place.
 
@@ -57,6 +81,10 @@ class LaneIndex:
         self._names = [lane.id for lane in lanes]
         self._lane = np.repeat(np.arange(len(lanes)), [len(lane.centerline) - 1 for lane in lanes])
         self._table = np.concatenate([_segments(lane) for lane in lanes])
+        ends = np.cumsum([0, *(len(lane.centerline) - 1 for lane in lanes)]).tolist()
+        self._rows = {
+            name: slice(*rows) for name, rows in zip(self._names, pairwise(ends), strict=True)
+        }
         lines = [np.stack([lane.centerline[:-1], lane.centerline[1:]], axis=1) for lane in lanes]
         self._tree = shapely.STRtree(shapely.linestrings(np.concatenate(lines)))
         self._widest = float(self._table[:, _HALF_WIDTHS].max()) + _SEAM
@@ -86,6 +114,24 @@ class LaneIndex:
         """
         places = self._places(x, y, self._widest, self._widest)
         return [place for place in places if place.is_inside]
+
+    def segment_at(self, place: LanePlace) -> Segment:
+        """Find the segment that a place lies beside."""
+        rows = self._rows[place.lane]
+        starts = self._table[rows, _STATION]
+        behind = int(np.searchsorted(starts, place.station, side="right"))
+        return self._segment(rows.start + max(behind - 1, 0))
+
+    def segment_after(self, segment: Segment) -> Segment | None:
+        """Find the segment that follows on the same lane; None at its end."""
+        row = segment.row + 1
+        if row >= len(self._lane) or self._lane[row] != self._lane[segment.row]:
+            return None
+        return self._segment(row)
+
+    def _segment(self, row: int) -> Segment:
+        cos, sin, along, _, _, left, length, start, end, _, yaw, *_ = self._table[row].tolist()
+        return Segment(row, cos, sin, along, left, length, min(start, end), yaw)
 
     def _places(self, x: float, y: float, reach: float, limit: float) -> list[LanePlace]:
         """Nearest place on each lane around a point, as far as `limit` [m]; `reach` says how far to look [m]."""
