@@ -92,21 +92,20 @@ class StopLines:
             return []
         (a, b, left), (c, d, top), _ = view_from_world.tolist()
         low, high = -self._margin_px, size_px + self._margin_px
+        most = self._reach**2
         seen = []
         for light, middle_x, middle_y, start_x, start_y, end_x, end_y in around:
             off_x, off_y = middle_x - x, middle_y - y
-            if off_x * off_x + off_y * off_y > self._reach**2:
+            if off_x * off_x + off_y * off_y > most:
                 continue
-            start = (
-                round(a * start_x + b * start_y + left),
-                round(c * start_x + d * start_y + top),
-            )
-            end = (round(a * end_x + b * end_y + left), round(c * end_x + d * end_y + top))
-            if all(
-                max(first, last) > low and min(first, last) < high
-                for first, last in zip(start, end, strict=True)
-            ):
-                seen.append((light, start, end))
+            row_1, row_2 = c * start_x + d * start_y + top, c * end_x + d * end_y + top
+            if (row_1 > high and row_2 > high) or (row_1 < low and row_2 < low):
+                continue  # most that are not seen are behind the car
+            column_1, column_2 = a * start_x + b * start_y + left, a * end_x + b * end_y + left
+            if (column_1 > high and column_2 > high) or (column_1 < low and column_2 < low):
+                continue
+            start, end = (round(column_1), round(row_1)), (round(column_2), round(row_2))
+            seen.append((light, start, end))
         return seen
 
     def _around(self, column: int, row: int) -> list[_Bar]:
