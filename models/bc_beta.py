@@ -9,7 +9,7 @@ from torch.nn import functional as F  # noqa: N812
 from models.config import LearnerConfig
 from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_action
 from models.interfaces import ACTION_SIZE, Batch, Chance, Learner, weighted_mean
-from models.steady_linear import SteadyLinear
+from models.threads import one_thread
 
 # Softplus underflows to zero, where the Beta density does not exist.
 SMALLEST_CONCENTRATION = 1e-6
@@ -54,13 +54,13 @@ class BcBetaLearner(Learner):
         self.config = config
         self.encoder = Encoder(config.network)
         self.head = nn.Sequential(
-            SteadyLinear(self.encoder.feature_size, HIDDEN_SIZE),
+            nn.Linear(self.encoder.feature_size, HIDDEN_SIZE),
             nn.ReLU(),
-            SteadyLinear(HIDDEN_SIZE, HIDDEN_SIZE),
+            nn.Linear(HIDDEN_SIZE, HIDDEN_SIZE),
             nn.ReLU(),
         )
-        self.alpha = SteadyLinear(HIDDEN_SIZE, ACTION_SIZE)
-        self.beta = SteadyLinear(HIDDEN_SIZE, ACTION_SIZE)
+        self.alpha = nn.Linear(HIDDEN_SIZE, ACTION_SIZE)
+        self.beta = nn.Linear(HIDDEN_SIZE, ACTION_SIZE)
 
     def distribution(self, bev: UInt8[Tensor, "B C H W"], state: Float[Tensor, "B 3"]) -> Beta:
         """Distribution of the actions rescaled to [0, 1] [-], in single precision."""
@@ -107,7 +107,8 @@ class BcBetaLearner(Learner):
         generator: torch.Generator,
     ) -> Float[Tensor, "B 2"]:
         """Mode, mean or a sample of the distribution, as the settings say."""
-        distribution = self.distribution(bev, state)
+        with one_thread():
+            distribution = self.distribution(bev, state)
         if self.config.beta.inference == "mode":
             unit = beta_mode(distribution.concentration1, distribution.concentration0)
         elif self.config.beta.inference == "mean":

@@ -1,11 +1,10 @@
 """Energies of many candidate actions without gradients, in float32 or with hidden layers in bfloat16.
 
 Both formats work on a piece of the candidates at a time, through all layers, so that what lies between layers never
-leaves the cache. The pieces are the same whatever the number of threads, and every energy depends on its own candidate
-alone, so its bytes hang neither on the threads nor on its neighbours.
+leaves the cache. Threads share out the pieces, so the bytes of an energy do not hang on their number.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable
 
 import torch
 from jaxtyping import BFloat16, Float
@@ -15,7 +14,7 @@ from torch.nn import functional as F  # noqa: N812
 from models import hardware
 from models.config import Precision
 from models.energy import HIDDEN_SIZE, EnergyHead
-from models.steady_linear import steady_linear
+from models.threads import for_each, one_thread
 
 # Hidden layers of this many candidates are 0.5 MB (bfloat16) and 1 MB (float32).
 ROWS_AT_A_TIME = 1024
@@ -24,6 +23,11 @@ ROWS_AT_A_TIME_CUDA = 2**18
 # In bfloat16 the hidden layer has units that are always 1, whose weights are the bias of the next layer: that is
 # quicker than adding one. Two are needed; 16 fill the registers.
 CONSTANT_UNITS = 16
+
+Piece = tuple[Tensor, Tensor]
+"""Rows of the first product, and where to write their energies."""
+
+Score = Callable[[Piece], None]
 
 
 def resolved(precision: Precision, device: torch.device | str = "cpu") -> Precision:
@@ -49,16 +53,24 @@ class EnergyScorer:
         features: One vector an observation, shape (B, F) [-].
         precision: Number format of the hidden layers. With "bfloat16" the actions and the first layer still count to
             16 bits, and the last layer is float32.
+        num_threads: Threads that share out the candidates; those that torch may use if None.
     """
 
     @torch.no_grad()
     def __init__(
-        self, head: EnergyHead, features: Float[Tensor, "B F"], precision: Precision = "auto"
+        self,
+        head: EnergyHead,
+        features: Float[Tensor, "B F"],
+        precision: Precision = "auto",
+        *,
+        num_threads: int | None = None,
     ) -> None:
         observation_weight, self._action_weight = head.first.weight.split(
             [features.shape[1], head.first.in_features - features.shape[1]], dim=1
         )
-        self._observed = steady_linear(features, observation_weight, head.first.bias)  # (B, H)
+        with one_thread() as available:
+            self._observed = F.linear(features, observation_weight, head.first.bias)  # (B, H)
+        self._num_threads = num_threads or available
         self._second, self._last = head.second, head.last
         self.precision = resolved(precision, features.device)
         self._rows = ROWS_AT_A_TIME_CUDA if features.is_cuda else ROWS_AT_A_TIME
@@ -73,38 +85,58 @@ class EnergyScorer:
         Returns:
             Energies, in single precision [nats].
         """
-        num_candidates = candidates.shape[1]
-        energies = candidates.new_empty(len(self._observed), num_candidates)
-        score = self._score_bfloat16 if self.precision == "bfloat16" else self._score_float32
-        for index, observed in enumerate(self._observed):
-            actions = candidates[index if len(candidates) > 1 else 0]
-            score(observed, actions, energies[index])
+        energies = candidates.new_empty(len(self._observed), candidates.shape[1])
+        scoring = self._in_bfloat16 if self.precision == "bfloat16" else self._in_float32
+        with one_thread():
+            for index, observed in enumerate(self._observed):
+                actions = candidates[index if len(candidates) > 1 else 0]
+                rows, worker = scoring(observed, actions)
+                pieces = tuple(
+                    zip(rows.split(self._rows), energies[index].split(self._rows), strict=True)
+                )
+                for_each(pieces, worker, num_threads=self._num_threads)
         return energies
 
-    def _score_float32(self, observed: Tensor, actions: Tensor, energies: Tensor) -> None:
-        """Write the energies (N) of the actions (N, 2) of one observation (H)."""
+    def _in_float32(self, observed: Tensor, actions: Tensor) -> tuple[Tensor, Callable[[], Score]]:
+        """Rows of the first product for the actions (N, 2) of an observation (H), and who scores pieces of them."""
         first, second = self._action_weight.t(), self._second.weight.t()
-        hidden = actions.new_empty(2, min(self._rows, len(actions)), HIDDEN_SIZE)
-        for piece, out in _pieces(self._rows, actions, energies):
-            one, two = hidden[:, : len(piece)]
-            torch.addmm(observed, piece, first, out=one).clamp_(min=0)
-            torch.addmm(self._second.bias, one, second, out=two).clamp_(min=0)
-            self._last_layer(two, out)
 
-    def _score_bfloat16(self, observed: Tensor, actions: Tensor, energies: Tensor) -> None:
-        """As `_score_float32`; the sums inside a product are float32 all the same."""
+        def worker() -> Score:
+            hidden = actions.new_empty(2, min(self._rows, len(actions)), HIDDEN_SIZE)
+
+            def score(piece: Piece) -> None:
+                rows, energies = piece
+                one, two = hidden[:, : len(rows)]
+                torch.addmm(observed, rows, first, out=one).clamp_(min=0)
+                torch.addmm(self._second.bias, one, second, out=two).clamp_(min=0)
+                self._last_layer(two, energies)
+
+            return score
+
+        return actions, worker
+
+    def _in_bfloat16(self, observed: Tensor, actions: Tensor) -> tuple[Tensor, Callable[[], Score]]:
+        """As `_in_float32`; the sums inside a product are float32 all the same."""
         first = _split_first(self._action_weight, observed)
         second = _split_second(self._second.weight, self._second.bias)
-        num_rows = min(self._rows, len(actions))
-        hidden = torch.empty(num_rows, len(second), dtype=torch.bfloat16, device=actions.device)
-        halves = hidden.new_empty(num_rows, HIDDEN_SIZE)
-        singles = actions.new_empty(num_rows, HIDDEN_SIZE)
-        for piece, out in _pieces(self._rows, _split_actions(actions), energies):
-            one, two, single = (buffer[: len(piece)] for buffer in (hidden, halves, singles))
-            _relu_(torch.mm(piece, first, out=one))
-            _relu_(torch.mm(one, second, out=two))
-            # Energies differ by less than bfloat16 resolves.
-            self._last_layer(single.copy_(two), out)
+
+        def worker() -> Score:
+            num_rows = min(self._rows, len(actions))
+            hidden = first.new_empty(num_rows, len(second))
+            halves = first.new_empty(num_rows, HIDDEN_SIZE)
+            singles = actions.new_empty(num_rows, HIDDEN_SIZE)
+
+            def score(piece: Piece) -> None:
+                rows, energies = piece
+                one, two, single = (buffer[: len(rows)] for buffer in (hidden, halves, singles))
+                _relu_(torch.mm(rows, first, out=one))
+                _relu_(torch.mm(one, second, out=two))
+                # Energies differ by less than bfloat16 resolves.
+                self._last_layer(single.copy_(two), energies)
+
+            return score
+
+        return _split_actions(actions), worker
 
     def _last_layer(self, hidden: Tensor, energies: Tensor) -> None:
         """Write the energies (N) of hidden units (N, H), which are overwritten.
@@ -113,11 +145,6 @@ class EnergyScorer:
         """
         torch.sum(hidden.mul_(self._last.weight[0]), dim=1, out=energies)
         energies.add_(self._last.bias)
-
-
-def _pieces(rows: int, *tensors: Tensor) -> Iterator[tuple[Tensor, ...]]:
-    """Cut tensors of equal length at the same places."""
-    return zip(*(tensor.split(rows) for tensor in tensors), strict=True)
 
 
 def _relu_(hidden: BFloat16[Tensor, "N H"]) -> None:

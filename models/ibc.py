@@ -13,6 +13,7 @@ from models.expert_actions import ExpertActions
 from models.interfaces import Batch, Chance, Learner
 from models.negatives import uniform_actions
 from models.samplers import dfo, grid
+from models.threads import one_thread
 
 
 class IbcLearner(Learner):
@@ -106,8 +107,12 @@ class IbcLearner(Learner):
     ) -> Float[Tensor, "B 2"]:
         """Encode once, in float32, then let the sampler of the settings choose."""
         settings = self.config.sampler
-        energy = EnergyScorer(self.energy, self.encoder(bev, state), settings.precision)
-        if settings.kind == "grid":
-            return grid.choose(energy, settings.grid, generator=generator)
-        start = self.experts.draw(len(bev), settings.dfo, generator=generator)
-        return dfo.search(energy, start, settings.dfo, generator=generator).actions
+        with one_thread() as num_threads:
+            features = self.encoder(bev, state)
+            energy = EnergyScorer(
+                self.energy, features, settings.precision, num_threads=num_threads
+            )
+            if settings.kind == "grid":
+                return grid.choose(energy, settings.grid, generator=generator)
+            start = self.experts.draw(len(bev), settings.dfo, generator=generator)
+            return dfo.search(energy, start, settings.dfo, generator=generator).actions
