@@ -10,7 +10,6 @@ from torch import Tensor, nn
 from torch.nn import functional as F  # noqa: N812
 
 from models.config import STATE_INPUTS, NetworkConfig
-from models.steady_linear import SteadyLinear
 
 BEV_CHANNELS = 5
 # (channels out, kernel size, stride); no padding, ReLU after each.
@@ -99,23 +98,20 @@ class Encoder(nn.Module):
         # Channels last: half the time of a training step in bfloat16 on a CPU with AMX.
         self.image = _convolutions().to(memory_format=torch.channels_last)  # type: ignore[call-overload]
         self.state = nn.Sequential(
-            SteadyLinear(len(STATE_INPUTS), HIDDEN_SIZE),
+            nn.Linear(len(STATE_INPUTS), HIDDEN_SIZE),
             nn.ReLU(),
-            SteadyLinear(HIDDEN_SIZE, HIDDEN_SIZE),
+            nn.Linear(HIDDEN_SIZE, HIDDEN_SIZE),
             nn.ReLU(),
         )
         self.projection: nn.Module = nn.Identity()
         self.joint: nn.Module = nn.Identity()
         if config.fusion == "roach":
             self.joint = nn.Sequential(
-                SteadyLinear(FLAT_SIZE + HIDDEN_SIZE, 512),
-                nn.ReLU(),
-                SteadyLinear(512, 256),
-                nn.ReLU(),
+                nn.Linear(FLAT_SIZE + HIDDEN_SIZE, 512), nn.ReLU(), nn.Linear(512, 256), nn.ReLU()
             )
             self.feature_size = 256
         else:
-            self.projection = nn.Sequential(SteadyLinear(FLAT_SIZE, HIDDEN_SIZE), nn.ReLU())
+            self.projection = nn.Sequential(nn.Linear(FLAT_SIZE, HIDDEN_SIZE), nn.ReLU())
             self.feature_size = 2 * HIDDEN_SIZE
         kept = [float(name in config.state_inputs) for name in STATE_INPUTS]
         scale = torch.tensor(kept) / torch.tensor([config.speed_scale, 1.0, 1.0])
