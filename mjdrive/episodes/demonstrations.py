@@ -126,6 +126,9 @@ def _driven(
 ) -> Generator[Driven]:
     """Check all that can be checked at once; the episodes are driven as they are asked for."""
     work.collector.require_drivable(episodes)
+    if not isinstance(executor, SerialExecutor):
+        # Long ones first, so that nobody is left with one when the others are done.
+        episodes = sorted(episodes, key=lambda episode: episode.length, reverse=True)
 
     def on_progress(episode: PlannedEpisode, done: int) -> None:
         # About half of the time is spent at lights and in turns.
