@@ -12,12 +12,9 @@ from mjdrive.datatypes import Town
 from mjdrive.episodes import store
 from mjdrive.evaluation import report, spread
 from mjdrive.evaluation.drives import Driving, make_drives, plan_drives, require_same_drives
-from mjdrive.evaluation.figures import draw_dataset
+from mjdrive.evaluation.figures import MOST_MAPS, draw_dataset
 from mjdrive.execution.work import Executor
 from mjdrive.vehicle.cars import CarModel
-
-MOST_MAPS = 50
-"""Drives that the picture of maps shows, the first of all [-]."""
 
 
 def drive_episodes(

@@ -23,6 +23,9 @@ SYMBOL_SPACING, SMALL_SPACING = 0.022, 0.04
 MARGIN = 12.0
 """Ground shown around the lanes [m]."""
 
+MOST_MAPS = 50
+"""Episodes that one picture shows; nobody looks at more, and pictures have a greatest height [-]."""
+
 
 def draw_trajectory(episode: Episode, town: Town, path: Path) -> None:
     """Draw the path of a drive over the map of the town, coloured by time, infractions marked.
@@ -48,17 +51,18 @@ def draw_trajectory(episode: Episode, town: Town, path: Path) -> None:
 
 
 def draw_dataset(episodes: Mapping[str, Episode], town: Town, path: Path) -> None:
-    """Draw every episode of a data set over the map of its town, one small map each.
+    """Draw the episodes of a data set over the map of its town, one small map each.
 
     Args:
-        episodes: The drives by name, at least one.
+        episodes: The drives by name, at least one; of more than `MOST_MAPS`, the first are drawn.
         town: The town that they were driven in.
         path: PNG file to write.
     """
     with matplotlib.style.context(["default", STYLE]):
         width, height = _extent(town)
-        num_columns = min(len(episodes), 5)
-        num_rows = math.ceil(len(episodes) / num_columns)
+        drawn = list(episodes.items())[:MOST_MAPS]
+        num_columns = min(len(drawn), 5)
+        num_rows = math.ceil(len(drawn) / num_columns)
         figure = Figure(
             figsize=(2.6 * num_columns, (2.6 * height / width + 0.3) * num_rows),
             layout="constrained",
@@ -66,7 +70,7 @@ def draw_dataset(episodes: Mapping[str, Episode], town: Town, path: Path) -> Non
         grid = figure.subplots(num_rows, num_columns, squeeze=False)
         for axes in grid.flat:
             axes.set_axis_off()
-        for axes, (name, episode) in zip(grid.flat, episodes.items(), strict=False):
+        for axes, (name, episode) in zip(grid.flat, drawn, strict=False):
             _draw_town(axes, town)
             _draw_path(axes, episode, line_width=1.4)
             _draw_ends(axes, episode)

@@ -97,3 +97,17 @@ def test_pyplot_is_not_touched() -> None:
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
     assert other.stdout == "False\n"
+
+
+def test_a_picture_of_many_drives_shows_the_first_of_them(
+    crossing: Town,
+    make_drive: Callable[..., Episode],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(figures, "MOST_MAPS", 2)
+    drives = {name: make_drive(np.linspace(0, 50, 51)) for name in ("one", "two", "three")}
+    figures.draw_dataset(drives, crossing, tmp_path / "all.png")
+    del drives["three"]
+    figures.draw_dataset(drives, crossing, tmp_path / "two.png")
+    assert (tmp_path / "all.png").read_bytes() == (tmp_path / "two.png").read_bytes()
