@@ -45,6 +45,8 @@ SUITE = (
     ),
     Benchmark("dfo", "a decision by the paper's search", "dfo:measure"),
     Benchmark("grid", "a decision by the exact softmax on a grid", "grid:measure"),
+    Benchmark("train", "a training step of DA-IBC and of BC-Beta", "training:measure"),
+    Benchmark("memory", "peak memory of training on 21,287 samples", "memory:measure"),
     Benchmark("drive", "3000 steps of driving with a policy", "closed_loop:measure"),
 )
 """In the order of the table."""

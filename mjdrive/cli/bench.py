@@ -88,11 +88,24 @@ def _measured(benchmarks: "Sequence[Benchmark]", *, quick: bool, rivals: Path | 
 
     from mjdrive.benchmarks.comparison import Plan
     from mjdrive.benchmarks.suite import run
-    from mjdrive.cli.console import ended_by_sigterm, stages
+    from mjdrive.cli.console import ended_by_sigterm, progress_bars
 
     with (
         ended_by_sigterm(),
         tempfile.TemporaryDirectory(prefix="mjdrive-bench-") as folder,
-        stages("bench", len(benchmarks)) as begin,
+        progress_bars() as bars,
     ):
-        return run(benchmarks, Plan(Path(folder), quick=quick, rivals=rivals), on_begin=begin)
+        task = bars.add_task("bench", total=len(benchmarks), unit="benchmarks")
+        names: list[str] = []
+
+        def begin(name: str) -> None:
+            bars.update(task, description=name, completed=len(names))
+            names.append(name)
+
+        def go_on(stage: str) -> None:
+            bars.update(task, description=f"{names[-1]}: {stage}")
+
+        plan = Plan(Path(folder), quick=quick, rivals=rivals, on_stage=go_on)
+        report = run(benchmarks, plan, on_begin=begin)
+        bars.update(task, description="bench", completed=len(benchmarks))
+    return report
