@@ -44,7 +44,9 @@ def draw(report: Report, path: Path) -> None:
         axes.set_xscale("log")
         axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}x"))
         axes.margins(x=0.12)
-        axes.set_xlabel("ratio of times or sizes, log scale; the black mark is the bar")
+        axes.set_xlabel(
+            "ratio of times or sizes, log scale; the black mark is the bar: green reaches it, red does not"
+        )
         axes.set_title(f"mjdrive against the side named, {report.machine.processor}", loc="left")
         save(canvas, path)
 
