@@ -2,10 +2,11 @@ import numpy as np
 import pytest
 import torch
 
+from mjdrive.bev import layers
 from mjdrive.bev.projector import BevProjector
 from mjdrive.datatypes import Episode, Town
 from mjdrive.errors import DataError
-from mjdrive.learning.batches import PackedDemonstrations, states
+from mjdrive.learning.batches import PackedDemonstrations, _pair_table, _unpack, states
 from mjdrive.town import routing
 
 LENGTH = 6
@@ -60,6 +61,15 @@ def test_batches_hold_the_views_of_the_projector_bit_by_bit(episode: Episode, to
         )
         np.testing.assert_array_equal(batch.bev[row], expected)
     np.testing.assert_allclose(batch.actions, episode.labels[[4, 1]], rtol=1e-6)
+
+
+def test_every_code_is_unpacked_as_the_layers_do() -> None:
+    rng = np.random.default_rng(0)
+    codes = rng.integers(0, 256, (3, 192, 192), dtype=np.uint8)
+    codes[0].flat[:512] = np.arange(512) % 256
+    found = _unpack(torch.from_numpy(codes), _pair_table())
+    np.testing.assert_array_equal(found, layers.unpack(codes))
+    assert found.is_contiguous(memory_format=torch.channels_last)
 
 
 def test_progress_counts_every_view(episode: Episode, town02: Town) -> None:
