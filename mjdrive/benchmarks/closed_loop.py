@@ -12,6 +12,7 @@ import torch
 from mjdrive.benchmarks.comparison import Figure, Plan
 from mjdrive.benchmarks.decisions import network, sampler
 from mjdrive.benchmarks.timing import WALL, timed
+from mjdrive.datatypes import Observation, Policy
 from mjdrive.episodes import driving
 from mjdrive.learning.pilot import Pilot
 from mjdrive.simulation.simulation import Simulation
@@ -41,7 +42,7 @@ def measure(plan: Plan) -> tuple[Figure, ...]:
     }
     num_steps = QUICK_STEPS if plan.quick else NUM_STEPS
     simulation = Simulation(library.load("town02"))
-    note = f"Real time is 300 s. {torch.get_num_threads()} threads, wall time."
+    note = f"Real time is 300 s. Wall time; threads: {torch.get_num_threads()}."
     if plan.quick:
         note += f" From {num_steps} steps."
     figures = []
@@ -61,18 +62,20 @@ def measure(plan: Plan) -> tuple[Figure, ...]:
     return tuple(figures)
 
 
-def drive(simulation: Simulation, pilot: Pilot, *, num_steps: int) -> Callable[[], object]:
+def drive(
+    simulation: Simulation, policy: Policy[Observation], *, num_steps: int
+) -> Callable[[], object]:
     """A drive in which a learned policy decides at every step and the PID expert's action is driven.
 
     Args:
         simulation: World to drive in.
-        pilot: Who decides.
+        policy: Who decides.
         num_steps: Control steps [-].
     """
-    pilot.reset(0)
+    policy.reset(0)
 
     def decide(_: int) -> None:
-        pilot.act(simulation.observe())
+        policy.act(simulation.observe())
 
     return lambda: driving.drive_expert(
         simulation,

@@ -65,7 +65,7 @@ def _comparison(name: str, theirs: str, pair: Pair) -> Comparison:
         their_rounds=pair.theirs,
         bar=LEAST,
         piece="decision",
-        note=f"Same network, settings and {torch.get_num_threads()} threads on both sides; wall time.",
+        note=f"Same network, settings and threads ({torch.get_num_threads()}) on both sides; wall time.",
     )
 
 
@@ -78,5 +78,5 @@ def _figure(
         rounds=tuple(1e3 * each for each in seconds),
         unit="ms",
         most=most,
-        note=f"{torch.get_num_threads()} threads, wall time.",
+        note=f"Wall time; threads: {torch.get_num_threads()}.",
     )

@@ -32,6 +32,6 @@ def measure(plan: Plan) -> tuple[Comparison, ...]:
             their_rounds=pair.theirs,
             bar=LEAST,
             piece="decision",
-            note=f"{torch.get_num_threads()} threads, wall time. Five passes and their resampling against one.",
+            note=f"Wall time; threads: {torch.get_num_threads()}. Five passes and their resampling against one.",
         ),
     )
