@@ -6,6 +6,8 @@ lost. A job has no effect but its result, so doing it twice is doing it once.
 
 import contextlib
 import logging
+import signal
+import threading
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
 from functools import lru_cache
@@ -138,8 +140,18 @@ def _connection(address: str) -> Iterator[Any]:
     if ray.is_initialized():
         yield ray
         return
-    ray.init(address=address, logging_level=logging.ERROR, log_to_driver=False)
+    with _own_sigterm():
+        ray.init(address=address, logging_level=logging.ERROR, log_to_driver=False)
     try:
         yield ray
     finally:
         ray.shutdown()
+
+
+@contextlib.contextmanager
+def _own_sigterm() -> Iterator[None]:
+    """Keep what this process does at SIGTERM; Ray would put in its own way, with a trace of its own stack."""
+    before = signal.getsignal(signal.SIGTERM)
+    yield
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGTERM, before)

@@ -66,8 +66,10 @@ def test_killed_process_costs_no_episode_and_changes_no_byte(
     demonstrations.collect(town02, routes, tmp_path / "here", settings=settings, seed=0)
     killed: list[int] = []
     finished: list[str] = []
+    at_sigterm = signal.getsignal(signal.SIGTERM)
 
     def report(name: str, done: int, expected: int) -> None:
+        assert signal.getsignal(signal.SIGTERM) is at_sigterm
         if done == expected:
             finished.append(name)
         elif not killed:  # it is in the middle of its drive
