@@ -17,9 +17,7 @@ from mjdrive.vehicle.tyres import Tyres
 
 AIR_DENSITY = 1.2  # [kg/m3]
 STANDSTILL_SPEED = 0.05  # [m/s] and, of the wheels, [rad/s]
-HOLD_RESERVE = (
-    20.0  # brake torque beyond what gravity and engine ask for before the wheels are locked [N m]
-)
+HOLD_RESERVE = 20.0  # brake torque beyond gravity and engine before the wheels are locked [N m]
 _STATE = mujoco.mjtState.mjSTATE_INTEGRATION
 
 
@@ -56,8 +54,7 @@ class Car:
             model.actuator(name).id for name in ("throttle", "brake", "steering")
         )
         # Memory of MuJoCo, read and written number by number: four are done before numpy has begun.
-        self._qvel, self._act = _numbers(data.qvel), _numbers(data.act)
-        self._ctrl = _numbers(data.ctrl)
+        self._qvel, self._act, self._ctrl = map(_numbers, (data.qvel, data.act, data.ctrl))
         self._pose, self._motion = data.qpos, data.qvel
         self._rotation = np.empty(9)
         self._seen: tuple[bytes, VehicleState] | None = None
@@ -169,9 +166,8 @@ class Car:
         x_speed, y_speed, *_ = self._qvel.tolist()
         self._surroundings.update(self._pose.tolist(), speed=math.hypot(x_speed, y_speed))
         mujoco.mj_forward(self._model, self._data)
-        mujoco.mj_setState(
-            self._model, self._data, physics, _STATE
-        )  # the solver's warm start again
+        # The solver's warm start again.
+        mujoco.mj_setState(self._model, self._data, physics, _STATE)
 
     def footprint(self) -> Float[np.ndarray, "4 2"]:
         """Corners of the car on the ground.
