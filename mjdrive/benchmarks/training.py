@@ -15,10 +15,10 @@ from models.config import Method
 from models.learners import build_learner
 from models.training import fit
 
-STEPS = 4
+STEPS = 6
 """Steps of a round [-]."""
 
-ROUNDS = 7
+ROUNDS = 5
 LEAST: dict[Method, float] = {"da-ibc": 4.0, "bc-beta": 2.0}
 """How many times more samples a second than the naive side [-]."""
 
