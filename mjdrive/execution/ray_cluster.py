@@ -8,6 +8,7 @@ import contextlib
 import logging
 import signal
 import threading
+import time
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
 from functools import lru_cache
@@ -25,8 +26,11 @@ RETRIES = 5
 BETWEEN_REPORTS = 1.0
 """Least time between two reports of a process [s]."""
 
-_WAIT = 0.5
-"""Time to wait for results before asking for progress [s]."""
+_WAIT = 0.2
+"""Time between two looks for results and for progress [s]."""
+
+_ANSWER = 0.5
+"""Time to wait for what is known of progress [s]."""
 
 
 class RayExecutor:
@@ -63,7 +67,10 @@ class RayExecutor:
                     while waiting and len(under_way) < self._room(ray):
                         job = waiting.popleft()
                         under_way[attempt.remote(shared, job, progress)] = job
-                    ready, _ = ray.wait(list(under_way), timeout=_WAIT)
+                    ready, _ = ray.wait(list(under_way), timeout=0.0)
+                    if not ready:
+                        # Not in `ray.wait`, which makes exit status 1 of any signal that ends it.
+                        time.sleep(_WAIT)
                     _tell(ray, progress, {job.name: job for job in under_way.values()}, on_progress)
                     for reference in ready:
                         job = under_way.pop(reference)
@@ -115,7 +122,7 @@ def _tell(
 ) -> None:
     """Pass on what is known; the process that knows it may be lost as any other, and begins again."""
     with contextlib.suppress(ray.exceptions.RayError):
-        for name, done in ray.get(progress.take.remote(), timeout=_WAIT).items():
+        for name, done in ray.get(progress.take.remote(), timeout=_ANSWER).items():
             if name in jobs:
                 on_progress(jobs[name], done)
 
