@@ -127,7 +127,7 @@ class Episode:
         seed: Seed of the episode.
         light_phase: Time into the light cycle at the start [s].
         time: Simulation time since reset, shape (T,) [s].
-        physics: Full MuJoCo integration state, shape (T, S), mixed units of qpos, qvel and act.
+        physics: What `Car.restore` needs to drive on from here bit by bit, MuJoCo's integration state first, shape (T, S), mixed units.
         vehicle: x, y [m], yaw [rad], speed [m/s], yaw_rate [rad/s], steering_angle [rad], shape (T, 6).
         actions: Driven acceleration and steering, shape (T, 2) [-].
         labels: What the policy wanted before any disturbance, shape (T, 2) [-].

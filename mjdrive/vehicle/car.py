@@ -18,7 +18,7 @@ from mjdrive.vehicle.tyres import Tyres
 AIR_DENSITY = 1.2  # [kg/m3]
 STANDSTILL_SPEED = 0.05  # [m/s] and, of the wheels, [rad/s]
 HOLD_RESERVE = 20.0  # brake torque beyond gravity and engine before the wheels are locked [N m]
-_STATE = mujoco.mjtState.mjSTATE_INTEGRATION
+_STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION) & ~int(mujoco.mjtState.mjSTATE_WARMSTART)
 
 
 class Car:
@@ -55,7 +55,7 @@ class Car:
         )
         # Memory of MuJoCo, read and written number by number: four are done before numpy has begun.
         self._qvel, self._act, self._ctrl = map(_numbers, (data.qvel, data.act, data.ctrl))
-        self._pose, self._motion = data.qpos, data.qvel
+        self._pose, self._motion, self._warm_start = data.qpos, data.qvel, data.qacc_warmstart
         self._rotation = np.empty(9)
         self._seen: tuple[bytes, VehicleState] | None = None
         self._friction = _numbers(model.dof_frictionloss)
@@ -93,7 +93,7 @@ class Car:
         mujoco.mj_forward(self._model, data)
 
     def command(self, action: Action) -> None:
-        """Set pedals and steering wheel; values beyond [-1, 1] count as the nearest limit.
+        """Begin a control interval: set pedals and steering wheel; values beyond [-1, 1] count as the nearest limit.
 
         Args:
             action: Positive acceleration is throttle, negative is brake; positive steering turns left.
@@ -103,6 +103,8 @@ class Car:
         self._ctrl[self._throttle] = max(acceleration, 0.0)
         self._ctrl[self._brake] = max(-acceleration, 0.0)
         self._ctrl[self._steering] = steering
+        # The solver starts afresh. What it found last is a third of a saved state, and noise that does not compress.
+        self._warm_start[:] = 0.0
 
     def update(self) -> None:
         """Renew brakes, air drag, tyres and standstill hold from the state; call it some fifty times a second."""
@@ -139,10 +141,10 @@ class Car:
         )
 
     def save(self) -> Float[np.ndarray, " S"]:
-        """Take all that the future of the simulation depends on.
+        """Take all that the future of the simulation depends on from the next command on.
 
         Returns:
-            MuJoCo's integration state, then tyre speeds [m/s], brake [-], hold flag and lock angles [rad].
+            MuJoCo's integration state without the solver's warm start, then tyre speeds [m/s], brake [-], hold flag and lock angles [rad].
         """
         physics = np.empty(mujoco.mj_stateSize(self._model, _STATE))
         mujoco.mj_getState(self._model, self._data, physics, _STATE)
@@ -151,7 +153,7 @@ class Car:
         return np.concatenate([physics, written])
 
     def restore(self, saved: Float[np.ndarray, " S"]) -> None:
-        """Go back to what `save` took; the simulation goes on from there bit by bit as it did then.
+        """Go back to what `save` took; from the next command on all goes bit by bit as it did then.
 
         Args:
             saved: What `save` returned, from a model of the same scene.
@@ -166,8 +168,6 @@ class Car:
         x_speed, y_speed, *_ = self._qvel.tolist()
         self._surroundings.update(self._pose.tolist(), speed=math.hypot(x_speed, y_speed))
         mujoco.mj_forward(self._model, self._data)
-        # The solver's warm start again.
-        mujoco.mj_setState(self._model, self._data, physics, _STATE)
 
     def footprint(self) -> Float[np.ndarray, "4 2"]:
         """Corners of the car on the ground.
