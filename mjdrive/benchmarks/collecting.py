@@ -5,12 +5,12 @@ import sys
 from pathlib import Path
 
 from mjdrive.benchmarks.comparison import Comparison, Plan, Reads
-from mjdrive.benchmarks.machine import num_cores
 from mjdrive.benchmarks.timing import timed
 from mjdrive.bev.layers import Layer
 from mjdrive.config import BevConfig, SimulationConfig
 from mjdrive.episodes import dataset
 from mjdrive.errors import WorkerError
+from mjdrive.execution.pool import available_cores
 
 TOWN = "town01"
 JOBS = 2
@@ -43,7 +43,7 @@ def measure(plan: Plan) -> tuple[Comparison, ...]:
             their_rounds=(driven,) * len(seconds),
             bar=FASTER_THAN_REAL_TIME,
             piece="data set",
-            note=f"Wall time on {num_cores()} cores; both are busy.",
+            note=f"Wall time on {available_cores()} cores; both are busy.",
         ),
         Comparison(
             name="data set on the disk",

@@ -6,6 +6,7 @@ import platform
 from dataclasses import dataclass
 from pathlib import Path
 
+from mjdrive.execution.pool import available_cores
 from mjdrive.versions import versions
 
 _PACKAGES = ("casadi", "opencv-python-headless", "shapely")
@@ -38,19 +39,12 @@ def describe() -> Machine:
     others = {name: importlib.metadata.version(name) for name in _PACKAGES}
     return Machine(
         processor=_processor(),
-        num_cores=num_cores(),
+        num_cores=available_cores(),
         memory_gb=round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9, 1),
         system=f"{platform.system()} {platform.machine()}",
         versions={**versions(), **others},
         load=round(os.getloadavg()[0], 2) if hasattr(os, "getloadavg") else -1.0,
     )
-
-
-def num_cores() -> int:
-    """Cores that this process may use [-]."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def _processor() -> str:
