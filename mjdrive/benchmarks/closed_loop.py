@@ -42,7 +42,10 @@ def measure(plan: Plan) -> tuple[Figure, ...]:
     }
     num_steps = QUICK_STEPS if plan.quick else NUM_STEPS
     simulation = Simulation(library.load("town02"))
-    note = f"Real time is 300 s. Wall time; threads: {torch.get_num_threads()}."
+    note = (
+        f"Real time is 300 s. One round; untrained networks decide, the PID expert's action is driven. Wall time; "
+        f"threads: {torch.get_num_threads()}."
+    )
     if plan.quick:
         note += f" From {num_steps} steps."
     figures = []
