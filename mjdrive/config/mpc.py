@@ -1,9 +1,12 @@
 """Frozen settings of the MPC expert: what it weighs, what limits it, and who solves its problem."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 from mjdrive.config.json_files import require
+
+LatePlan = Literal["plan", "pid"]
+"""What is driven when a plan came late."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +75,7 @@ class MpcConfig:
     max_iterations: int = 30
     tolerance: float = 1e-4
     late_after: float = 0.05
-    late_plan: Literal["plan", "pid"] = "plan"
+    late_plan: LatePlan = "plan"
 
     def __post_init__(self) -> None:
         for name in (
@@ -99,6 +102,10 @@ class MpcConfig:
                 value >= self.braking,
                 f"{name} is {value} m/s2; expected at least braking ({self.braking} m/s2).",
             )
+        require(
+            self.late_plan in get_args(LatePlan),
+            f"late_plan is '{self.late_plan}'; expected one of {', '.join(get_args(LatePlan))}.",
+        )
         require(
             self.max_iterations >= 1,
             f"max_iterations is {self.max_iterations}; expected at least 1.",

@@ -1,8 +1,9 @@
 """How sure a mean over training seeds and episodes is.
 
 Reference:
-    Agarwal et al., Deep Reinforcement Learning at the Edge of the Statistical Precipice, NeurIPS 2021: stratified
-    bootstrap, and the interquartile mean, which a few odd runs do not move.
+    Agarwal et al., Deep Reinforcement Learning at the Edge of the Statistical Precipice, NeurIPS 2021: bootstrap over
+    runs, and the interquartile mean, which a few odd runs do not move. There each task has runs of its own; here one
+    trained policy drives every episode, so what is drawn anew is whole runs.
 """
 
 from collections.abc import Callable
@@ -55,10 +56,11 @@ def interval(
     level: float = 0.95,
     num_draws: int = 2000,
 ) -> Interval:
-    """Bootstrap a figure over training seeds, episode by episode.
+    """Bootstrap a figure over training seeds and, within them, over episodes.
 
-    Each episode has the same start and lights for every training seed, so it is a stratum of its own: in each draw its
-    seeds are drawn anew with replacement. With a single seed the episodes are drawn instead.
+    In each draw whole seeds are drawn with replacement, and the episodes of each seed likewise: what a seed has learnt
+    shows in all of its episodes, which are no independent evidence. With three to five seeds such intervals are still
+    too narrow (tests/mjdrive/evaluation/test_bootstrap.py says by how much); with one they say nothing of training.
 
     Args:
         figures: One figure for each training seed and episode, in any unit.
@@ -71,11 +73,8 @@ def interval(
         The figure and its percentile interval.
     """
     num_seeds, num_episodes = figures.shape
-    if num_seeds > 1:
-        chosen = rng.integers(num_seeds, size=(num_draws, num_seeds, num_episodes))
-        drawn = np.take_along_axis(figures[None], chosen, axis=1)
-    else:
-        chosen = rng.integers(num_episodes, size=(num_draws, 1, num_episodes))
-        drawn = np.take_along_axis(figures[None], chosen, axis=2)
+    seeds = rng.integers(num_seeds, size=(num_draws, num_seeds, 1))
+    episodes = rng.integers(num_episodes, size=(num_draws, num_seeds, num_episodes))
+    drawn = figures[seeds, episodes]
     low, high = np.quantile(statistic(drawn), [(1 - level) / 2, (1 + level) / 2])
     return Interval(float(statistic(figures)), float(low), float(high))

@@ -18,6 +18,7 @@ from mjdrive.datatypes import Episode, InfractionKind, Lane, Observation, Policy
 from mjdrive.episodes.plan import episode_seed
 from mjdrive.episodes.rollout import rollout
 from mjdrive.episodes.views import FollowWalk, observe
+from mjdrive.errors import UnknownNameError
 from mjdrive.evaluation.branches import branches_taken
 from mjdrive.evaluation.choices import Approach, approaches, entropy
 from mjdrive.expert.pid import PidExpert
@@ -89,13 +90,20 @@ def find_forks(
     Args:
         simulation: Where; it is left at the last moment.
         seed: Decides what the lights show on the way.
-        names: Approaches to drive along; all of the town if None.
+        names: Approaches to drive along, of those that `approaches` finds; all of them if None.
 
     Returns:
         One moment for each approach, in their order; approaches too short to come up to speed on are left out.
+
+    Raises:
+        UnknownNameError: If a name is not that of an approach.
     """
-    wanted = approaches(simulation.town)
-    found = (_moment(simulation, it, seed) for it in wanted if names is None or it.lane in names)
+    known = {it.lane: it for it in approaches(simulation.town)}
+    for name in names or ():
+        if name not in known:
+            raise UnknownNameError(f"approach of {simulation.town.name}", name, known)
+    wanted = known.values() if names is None else [known[name] for name in names]
+    found = (_moment(simulation, it, seed) for it in wanted)
     return tuple(fork for fork in found if fork is not None)
 
 
@@ -147,7 +155,8 @@ def outcome(
 
 
 def mean_outcome(outcomes: Sequence[ForkOutcome]) -> tuple[float, float | None]:
-    """Mode precision and conditional entropy: means of share safe and of entropy over moments [-]."""
+    """Mode precision and conditional entropy: means of share safe and of entropy over one or more moments [-]."""
+    assert outcomes, "a mean needs a moment"
     entropies = [it.entropy for it in outcomes if it.entropy is not None]
     safe = float(np.mean([it.safe for it in outcomes]))
     return safe, float(np.mean(entropies)) if entropies else None

@@ -29,7 +29,7 @@ def modes(
     """Find the separate ways to act in a distribution over a grid of actions.
 
     From each point one climbs to the highest of its eight neighbours until there is none higher; points from which one
-    comes to the same top belong to one mode.
+    comes to the same top belong to one mode. Neighbours that are equally high are one point.
 
     Args:
         probabilities: Of the points of an even grid over [-1, 1] x [-1, 1], acceleration outermost; they sum to one [-].
@@ -57,17 +57,43 @@ def entropy_bits(probabilities: Float[np.ndarray, "A S"]) -> float:
 
 
 def _tops(values: Float[np.ndarray, "A S"]) -> Int[np.ndarray, " N"]:
-    """The point that one climbs to from each point, by index."""
-    height, width = values.shape
-    padded = np.pad(values, 1, constant_values=-np.inf)
-    offsets = [(row, column) for row in (-1, 0, 1) for column in (-1, 0, 1)]
-    # The point itself comes first, so that who is as high as its neighbours stays.
-    offsets.sort(key=lambda offset: offset != (0, 0))
-    around = np.stack([padded[1 + r : 1 + r + height, 1 + c : 1 + c + width] for r, c in offsets])
-    steps = np.array([r * width + c for r, c in offsets])
-    target = np.arange(values.size) + steps[around.argmax(axis=0).ravel()]
+    """The top that one climbs to from each point, by the index of its first point."""
+    patch = _patches(values).ravel()
+    around = _around(values, fill=-np.inf)
+    index = np.arange(values.size)
+    neighbour = _around(index.reshape(values.shape), fill=0)
+    highest = around.argmax(axis=0)[None]
+    height = np.take_along_axis(around, highest, axis=0).ravel()
+    onward = np.take_along_axis(neighbour, highest, axis=0).ravel()
+    # A patch is left by the highest of all ways out of it.
+    way = np.lexsort((-index, height))  # rising, so that the highest is written last
+    leaves = np.full(values.size, -1)
+    leaves[patch[way]] = patch[onward[way]]
+    target = np.where(leaves[patch] >= 0, leaves[patch], patch)
+    while not np.array_equal(target[target], target):
+        target = target[target]
+    return np.asarray(target)
+
+
+def _patches(values: Float[np.ndarray, "A S"]) -> Int[np.ndarray, "A S"]:
+    """The first point of the patch of equally high neighbours that each point belongs to, by index."""
+    patch = np.arange(values.size).reshape(values.shape)
+    is_level = _around(values, fill=-np.inf) == values
     while True:
-        farther = target[target]
-        if np.array_equal(farther, target):
-            return np.asarray(target)
-        target = farther
+        lower = np.where(is_level, _around(patch, fill=values.size), values.size).min(axis=0)
+        if np.array_equal(lower, patch):
+            return np.asarray(patch)
+        patch = lower
+
+
+def _around(values: np.ndarray, *, fill: float | int) -> np.ndarray:
+    """Each point and its eight neighbours, shape (9, A, S); `fill` beyond the edge."""
+    height, width = values.shape
+    padded = np.pad(values, 1, constant_values=fill)
+    return np.stack(
+        [
+            padded[row : row + height, column : column + width]
+            for row in range(3)
+            for column in range(3)
+        ]
+    )

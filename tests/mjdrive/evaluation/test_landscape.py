@@ -37,6 +37,24 @@ def test_bumps_that_melt_into_one_are_one_mode() -> None:
     assert len(modes(mixture((0.5, 0.0, 0.05), (0.5, 0.0, -0.05)))) == 1
 
 
+@pytest.mark.parametrize("points", [64, 65, 128])
+def test_one_bump_is_one_mode_on_any_grid_and_in_any_rounding(points: int) -> None:
+    axis = np.linspace(-1.0, 1.0, points)
+    energy = 0.5 * (axis[:, None] ** 2 + axis[None] ** 2) / 0.2**2
+    for rounded in (
+        energy,
+        np.round(energy, 1),
+    ):  # in a coarse number format whole patches are equally high
+        density = np.exp(-rounded)
+        (mode,) = modes(density / density.sum())
+        assert mode == pytest.approx((0.0, 0.0, 1.0), abs=0.1)
+
+
+def test_a_flat_landscape_is_one_way_to_act() -> None:
+    (mode,) = modes(np.full((65, 65), 1 / 65**2))
+    assert mode.mass == pytest.approx(1.0)
+
+
 def test_entropy_at_its_ends() -> None:
     even = np.full((128, 128), 1 / 128**2)
     assert entropy_bits(even) == pytest.approx(14.0)
