@@ -3,7 +3,8 @@
 An expert drives the route. Then the steering of the whole route is optimised at once, at the expert's own speeds and with
 the model of the car that the MPC plans with: the smallest RMS rate of the command for which the car stays on its
 lane and the RMS distance of its rear axle from the route stays within an allowance. It knows all of the route, has no
-rack to wait for and no disturbance to meet, so nobody who drives at these speeds steers more smoothly.
+rack to wait for and no disturbance to meet, so nobody who drives at these speeds steers more smoothly. Who drives more
+slowly can: --pace 0.7 asks for the bound at 0.7 of the speeds.
 
 Example: python scripts/steering_bound.py --route town01/route0 --route town02/route0
 """
@@ -68,6 +69,7 @@ def least_whiteness(
     car: VehicleParameters,
     allowance: float,
     interval: float,
+    pace: float,
 ) -> float:
     """Smallest RMS rate of the steering command along a route.
 
@@ -78,6 +80,7 @@ def least_whiteness(
         car: Which car.
         allowance: RMS distance from the route that it may have while it moves [m].
         interval: Time between two steps [s].
+        pace: Factor on the speeds while it moves [-].
 
     Returns:
         The rate over the whole time of the drive, standstill included [1/s].
@@ -85,7 +88,7 @@ def least_whiteness(
     moving = speed > MOVING
     grid = np.arange(station[0], station[-1], SPACING)
     num = len(grid)
-    speeds = ca.DM(np.interp(grid, station[moving], speed[moving]))
+    speeds = ca.DM(pace * np.interp(grid, station[moving], speed[moving]))
     curvature = ca.DM(np.interp(grid, route.station, route.curvature))
     offset, heading, angle = (ca.MX.sym(name, num) for name in ("offset", "heading", "angle"))
     maths = Trigonometry(ca.sin, ca.cos, ca.tan)
@@ -103,8 +106,9 @@ def least_whiteness(
         ca.diff(heading) - SPACING * (stretch * path_curvature - kappa),
     )
     lock = car.max_steering_angle
+    duration = interval * (np.count_nonzero(~moving) + np.count_nonzero(moving) / pace)
     rate = ca.diff(angle) / SPACING * v / lock
-    squares = ca.sum1(rate**2 * SPACING / v) / (interval * len(speed))
+    squares = ca.sum1(rate**2 * SPACING / v) / duration
     mean_square = ca.sum1(offset**2 / speeds) / ca.sum1(1 / speeds)
     edge = 0.5 * NARROWEST_LANE - 0.5 * car.width
     solver = ca.nlpsol(
@@ -134,14 +138,15 @@ def least_whiteness(
 @click.command()
 @click.option("--route", "routes", multiple=True, default=("town01/route0",), show_default=True)
 @click.option("--allowance", default=0.25, show_default=True, help="RMS lane error allowed [m].")
-def main(*, routes: tuple[str, ...], allowance: float) -> None:
+@click.option("--pace", default=1.0, show_default=True, help="Factor on the PID's speeds [-].")
+def main(*, routes: tuple[str, ...], allowance: float, pace: float) -> None:
     """Print whiteness and lane error of both experts beside the least whiteness at the speeds of the PID."""
     rows = []
     with progress_bars() as bars:
         task = bars.add_task("routes", total=len(routes), unit="routes")
         for name in routes:
             town, _, route_name = name.partition("/")
-            rows.append(row(town, route_name, allowance=allowance))
+            rows.append(row(town, route_name, allowance=allowance, pace=pace))
             bars.advance(task)
     print("| route | PID [1/s] | MPC [1/s] | ", end="")
     print(f"least at the PID's lane error | least at {allowance:g} m | half of the PID's |")
@@ -149,7 +154,7 @@ def main(*, routes: tuple[str, ...], allowance: float) -> None:
     print("\n".join(rows))
 
 
-def row(town: str, route_name: str, *, allowance: float) -> str:
+def row(town: str, route_name: str, *, allowance: float, pace: float) -> str:
     """One line of the table, in Markdown."""
     simulation = Simulation(library.load(town))
     waypoints = library.load_settings(town).routes
@@ -173,6 +178,7 @@ def row(town: str, route_name: str, *, allowance: float) -> str:
                     car=simulation.car.parameters,
                     allowance=room,
                     interval=interval,
+                    pace=pace,
                 )
                 for room in (error, allowance)
             ]
