@@ -6,6 +6,8 @@ from typing import TypeVar
 
 import torch
 
+from models.threads import stay_one_thread
+
 Item = TypeVar("Item")
 
 
@@ -19,8 +21,11 @@ def one_ahead(items: Iterable[Item]) -> Iterator[Item]:
         The items.
     """
     waiting = iter(items)
-    # One thread inside it, too: a second crew would take the cores from the step that goes on.
-    with ThreadPoolExecutor(1, initializer=torch.set_num_threads, initargs=(1,)) as maker:
+    num_threads = torch.get_num_threads()
+    with ThreadPoolExecutor(1) as maker:
+        # One thread inside it, too: a second crew would take the cores from the step that goes on.
+        maker.submit(stay_one_thread).result()
+        torch.set_num_threads(num_threads)  # for threads that are still to come
         coming = maker.submit(next, waiting, None)
         while (item := coming.result()) is not None:
             coming = maker.submit(next, waiting, None)

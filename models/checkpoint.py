@@ -140,7 +140,8 @@ def load(folder: Path, *, device: torch.device | str = "cpu") -> Learner:
         The learner, ready to act.
 
     Raises:
-        CheckpointError: If the folder is no run, or a file of it is missing, truncated or of another network.
+        CheckpointError: If the folder is no run, a file of it is missing, truncated or of another network, or a weight
+            is no finite number.
     """
     learner = build_learner(load_config(folder), seed=0)
     tensors, _ = read_tensors(folder / MODEL, device=torch.device("cpu"))
@@ -150,6 +151,12 @@ def load(folder: Path, *, device: torch.device | str = "cpu") -> Learner:
         raise CheckpointError(
             f"'{folder / MODEL}' does not fit the network of '{folder / CONFIG}': {error}"
         ) from error
+    broken = [name for name, tensor in tensors.items() if not tensor.isfinite().all()]
+    if broken:
+        raise CheckpointError(
+            f"'{folder / MODEL}' holds weights that are not finite ({', '.join(broken[:3])}); expected numbers. Train "
+            f"again with a lower optimiser.learning_rate."
+        )
     return learner.to(device).eval()
 
 

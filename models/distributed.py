@@ -11,14 +11,20 @@ from dataclasses import dataclass
 
 import torch
 from torch import Tensor, distributed
+from torch.distributed.rendezvous import rendezvous
 
 from models.errors import HardwareError
 
 VARIABLES = ("RANK", "LOCAL_RANK", "WORLD_SIZE", "MASTER_ADDR", "MASTER_PORT")
 """What torchrun tells each process in its environment."""
 
+LARGEST_PORT = 65_535
+
+JOINING = datetime.timedelta(minutes=1)
+"""How long a process waits for the others to come."""
+
 PATIENCE = datetime.timedelta(minutes=10)
-"""How long a process waits for the others; views are drawn, checkpoints written meanwhile."""
+"""How long it waits for them later on; views are drawn, checkpoints written meanwhile."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,10 +54,15 @@ class Team:
         """Where this process computes: on a GPU of its own where GPUs were chosen.
 
         Raises:
-            HardwareError: If the machine has fewer GPUs than processes.
+            HardwareError: If one GPU is chosen for all, or the machine has fewer GPUs than processes.
         """
         if self.size == 1 or chosen.type != "cuda":
             return chosen
+        if chosen.index is not None:
+            raise HardwareError(
+                f"Device '{chosen}' is one GPU, and {self.size} processes take one each. Give --device cuda; which GPUs "
+                f"there are to take is for CUDA_VISIBLE_DEVICES to say."
+            )
         if self.local_rank >= torch.cuda.device_count():
             raise HardwareError(
                 f"Process {self.local_rank + 1} of this machine has no GPU: there are {torch.cuda.device_count()}. "
@@ -94,19 +105,24 @@ def team_of(environment: Mapping[str, str]) -> Team:
             f"RANK is {rank}, LOCAL_RANK {local_rank} and WORLD_SIZE {size}; expected "
             f"0 <= LOCAL_RANK <= RANK < WORLD_SIZE. Leave them to torchrun."
         )
+    port = environment["MASTER_PORT"]
+    if not (port.isdecimal() and 0 < int(port) <= LARGEST_PORT):
+        raise HardwareError(
+            f"MASTER_PORT is '{port}'; expected a whole number from 1 to {LARGEST_PORT}. Leave it to torchrun."
+        )
     return Team(rank, size, local_rank)
 
 
 @contextmanager
 def joined(team: Team, device: torch.device) -> Iterator[None]:
-    """Within it, the processes of a team can sum tensors.
+    """Within it, the processes of a team can talk to each other.
 
     Args:
         team: From `team_of`.
         device: Where this process computes.
 
     Raises:
-        HardwareError: If the others do not answer.
+        HardwareError: If the others do not come within a minute.
     """
     if team.size == 1:
         yield
@@ -114,15 +130,19 @@ def joined(team: Team, device: torch.device) -> Iterator[None]:
     if device.type == "cuda":
         torch.cuda.set_device(device)
     try:
+        meeting = rendezvous("env://", team.rank, team.size, timeout=JOINING)
+        store, _, _ = next(meeting)
         distributed.init_process_group(
             "nccl" if device.type == "cuda" else "gloo",
+            store=store,
             rank=team.rank,
             world_size=team.size,
             timeout=PATIENCE,
         )
-    except RuntimeError as error:
+    except (RuntimeError, OSError) as error:
         raise HardwareError(
-            f"Process {team.rank} of {team.size} cannot reach the others: {error}. Check the address given to torchrun."
+            f"Process {team.rank} of {team.size} cannot reach the others: {_first_line(error)} Check that all of them "
+            f"were started, and the address given to torchrun."
         ) from error
     try:
         yield
@@ -136,12 +156,37 @@ def sum_over(team: Team, tensors: Sequence[Tensor]) -> None:
     Args:
         team: From `team_of`.
         tensors: Float tensors on one device, of the same shapes everywhere.
+
+    Raises:
+        HardwareError: If another process is lost.
     """
     if team.size == 1:
         return
     message = torch.cat([tensor.flatten() for tensor in tensors])
-    distributed.all_reduce(message)
+    with told_of_losses(team):
+        distributed.all_reduce(message)
     for tensor, total in zip(
         tensors, message.split([tensor.numel() for tensor in tensors]), strict=True
     ):
         tensor.copy_(total.view_as(tensor))
+
+
+@contextmanager
+def told_of_losses(team: Team) -> Iterator[None]:
+    """Say what it means when a message to the others, sent within it, fails.
+
+    Raises:
+        HardwareError: If it does.
+    """
+    try:
+        yield
+    except RuntimeError as error:
+        raise HardwareError(
+            f"Process {team.rank} of {team.size} has lost another: {_first_line(error)} What that one said stands above "
+            f"or in its log. Start all of them again with --resume; that goes on from the last complete epoch."
+        ) from error
+
+
+def _first_line(error: Exception) -> str:
+    """What went wrong, without the stack of torch."""
+    return str(error).strip().partition("\n")[0].removesuffix(".") + "."

@@ -148,7 +148,10 @@ class EnergyScorer:
 
 
 def _relu_(hidden: BFloat16[Tensor, "N H"]) -> None:
-    """Rectify in place, as integers: the sign bit is the same, and torch needs a fifth of the time for it."""
+    """Rectify in place, as integers: the sign bit is the same, and torch needs a fifth of the time for it.
+
+    A NaN with that bit would become 0; `checkpoint.load` refuses weights that make one.
+    """
     hidden.view(torch.int16).clamp_(min=0)
 
 

@@ -37,12 +37,13 @@ def settle(
     )
 
 
-def in_words(config: LearnerConfig, *, device: torch.device) -> str:
+def in_words(config: LearnerConfig, *, device: torch.device, resumes: bool = False) -> str:
     """Say where and in which number format a run trains, and what is slow about it.
 
     Args:
         config: Settled settings.
         device: Where.
+        resumes: Whether a run goes on, whose number format stays; then no other is recommended.
 
     Returns:
         One line.
@@ -50,6 +51,9 @@ def in_words(config: LearnerConfig, *, device: torch.device) -> str:
     precision = config.optimiser.precision
     text = f"Training on {device} in {precision}"
     is_fast = hardware.bfloat16_is_fast(device)
+    if resumes:
+        slow = precision == "bfloat16" and not is_fast
+        return f"{text}, as this run began{'; that is slow here' if slow else ''}."
     if precision == "bfloat16" and not is_fast:
         return f"{text}, which is slow here; --set optimiser.precision=float32 is quicker."
     if precision == "float32" and is_fast:

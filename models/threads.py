@@ -7,6 +7,7 @@ were cut. Here every operation is done by one thread, and threads share out piec
 
 import contextlib
 import functools
+import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
@@ -54,7 +55,7 @@ def for_each(
             handle(piece)
 
     num_helpers = min(num_threads, len(pieces)) - 1
-    helpers = [_helpers(num_threads - 1).submit(work) for _ in range(num_helpers)]
+    helpers = [_helpers(num_threads - 1).submit(_help, work) for _ in range(num_helpers)]
     try:
         work()
     finally:
@@ -62,10 +63,27 @@ def for_each(
             helper.result()
 
 
+def stay_one_thread() -> None:
+    """Let each operation that the calling thread does from now on be done by it alone.
+
+    The number that torch gives to threads that are still to come is set with it: who calls this in a thread of its own
+    sets that back, as `one_thread` does at its end.
+    """
+    # Asked first, as the first operation of a thread takes over what was set last in any thread.
+    if torch.get_num_threads() != 1:
+        torch.set_num_threads(1)
+
+
+def _help(work: Callable[[], None]) -> None:
+    stay_one_thread()
+    work()
+
+
 @functools.cache
 def _helpers(count: int) -> ThreadPoolExecutor:
-    """Threads that wait for work.
-
-    A thread takes over how many threads torch may use when it does its first operation: one, inside `one_thread`.
-    """
+    """Threads that wait for work."""
     return ThreadPoolExecutor(count, thread_name_prefix="models")
+
+
+if hasattr(os, "register_at_fork"):  # a fork copies the executor, but none of its threads
+    os.register_at_fork(after_in_child=_helpers.cache_clear)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import torch
 from torch import Tensor
 
-from models import precision, run_folder
+from models import agreement, precision, run_folder
 from models.ahead import one_ahead
 from models.config import LearnerConfig, OptimiserConfig
 from models.density import action_density, inverse_weights
@@ -30,6 +30,7 @@ def fit(
     folder: Path | None = None,
     seed: int = 0,
     resume: bool = False,
+    on_ready: Callable[[], None] | None = None,
     on_epoch: Callable[[EpochReport], None] | None = None,
     on_step: Callable[[StepReport], None] | None = None,
     device: torch.device | str = "cpu",
@@ -45,6 +46,7 @@ def fit(
         folder: Run folder to write a checkpoint to after each epoch, or None to write nothing.
         seed: Seed of order, negatives and dropout.
         resume: Whether to go on from the last complete epoch in `folder`.
+        on_ready: Called once, when nothing but the first step is left to go wrong; it may empty `folder`.
         on_epoch: Called after each epoch, when its checkpoint is complete.
         on_step: Called after each step.
         device: Where to train.
@@ -57,20 +59,31 @@ def fit(
         CheckpointError: If there is nothing to resume from, other settings were used before, or the folder
             holds another run that is not to be resumed.
         TrainingError: If there are no demonstrations, fewer pairs a step than processes, or the loss is no longer finite.
+        HardwareError: If the processes are about to train different things, or one of them is lost.
     """
     assert learner.config == config, "the learner was built with other settings"
     if resume and folder is None:
         raise CheckpointError("There is no run folder to resume from; give the folder of a run.")
-    if not resume and folder is not None and team.leads:
-        run_folder.require_free(folder)
     learner.config = precision.settle(config, device=device, run=folder if resume else None)
     run = _Run(learner, demonstrations, seed=seed, device=torch.device(device), team=team)
     history: list[EpochReport] = []
     writes = folder if team.leads else None
     if resume and folder is not None:
         history = run_folder.take_up(folder, learner, run.state, seed=seed, device=run.device)
-        if writes is not None:  # an interruption may have come between the files of a checkpoint
-            run_folder.save(writes, learner, run.state, history, seed=seed)
+    agreement.require_same(
+        team,
+        agreement.facts(
+            learner.config, seed=seed, actions=run.actions, num_epochs_done=len(history)
+        ),
+    )
+    if on_ready is not None:
+        on_ready()
+    if (
+        resume and writes is not None
+    ):  # an interruption may have come between the files of a checkpoint
+        run_folder.save(writes, learner, run.state, history, seed=seed)
+    elif writes is not None:
+        run_folder.require_free(writes)
     for epoch in range(len(history), config.optimiser.epochs):
         history.append(run.train_epoch(epoch, on_step))
         if writes is not None:
@@ -116,11 +129,7 @@ class _Run:
         team: Team,
     ) -> None:
         self.settings: OptimiserConfig = learner.config.optimiser
-        if self.settings.batch_size < team.size:
-            raise TrainingError(
-                f"{team.size} processes share minibatches of {self.settings.batch_size} pairs; expected at least one "
-                f"pair for each. Start fewer processes, or raise optimiser.batch_size."
-            )
+        agreement.require_shares(team, self.settings.batch_size)
         self.learner = learner
         self.demonstrations = demonstrations
         self.seed = seed

@@ -81,7 +81,7 @@ def train(
         raise click.UsageError("--resume goes on with a run and --overwrite replaces it: give one.")
     settings = learner_settings(method, preset=preset, assignments=assignments)
     run = out or Path("runs") / method
-    from mjdrive.learning.training import team as find_team  # torch takes a second
+    from mjdrive.learning.training import find_team  # torch takes a second
     from mjdrive.learning.training import train as train_policy
 
     team = find_team()

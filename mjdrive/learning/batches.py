@@ -112,4 +112,6 @@ def _unpack(
         table: From `_pair_table`, on their device.
     """
     pairs = codes.contiguous().view(torch.int16).flatten().int().bitwise_and_(0xFFFF)
-    return table.index_select(0, pairs).view(*codes.shape, -1).permute(0, 3, 1, 2)
+    num_channels = table.shape[1] // 2
+    # Not -1, which nobody can tell where there is no view.
+    return table.index_select(0, pairs).view(*codes.shape, num_channels).permute(0, 3, 1, 2)

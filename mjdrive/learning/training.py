@@ -13,7 +13,7 @@ from mjdrive.learning.batches import PackedDemonstrations
 from mjdrive.town import library
 from mjdrive.vehicle.cars import DEFAULT
 from mjdrive.versions import versions
-from models import distributed, precision
+from models import agreement, distributed, precision
 from models.config import LearnerConfig
 from models.distributed import ALONE, Team
 from models.errors import ModelsError
@@ -59,7 +59,7 @@ class Source:
             )
 
 
-def team() -> Team:
+def find_team() -> Team:
     """The processes that torchrun started to train together; this one alone if it started none.
 
     Raises:
@@ -94,9 +94,9 @@ def train(
         run: Folder to write checkpoint, metrics and settings to.
         seed: Decides first weights, order of the data and negatives.
         resume: Whether to go on from the last complete epoch in `run`.
-        overwrite: Whether a run that is in `run` is replaced, once the data are found to be whole.
+        overwrite: Whether a run that is in `run` is replaced, once the new one is ready for its first step.
         device: Where to train: "auto" for a GPU where there is one, or "cpu", "cuda", "cuda:1".
-        team: The processes that train together, from `team()`; the first one writes.
+        team: The processes that train together, from `find_team()`; the first one writes.
         on_note: Told in a line where and in which number format training goes on.
         on_frame: Told how many of how many views are drawn.
         on_step: Told about each step.
@@ -107,7 +107,8 @@ def train(
 
     Raises:
         DataError: If the data folder is missing, unfinished or damaged.
-        RunError: If the run folder is in use, there is nothing to resume, or the device is not there.
+        RunError: If the run folder is in use, there is nothing to resume, the device is not there, or the processes
+            do not find each other or train different things.
     """
     if resume:
         runs.require_begun(run)
@@ -117,23 +118,20 @@ def train(
         place = team.device(choose_device(device))
         config = precision.settle(config, device=place, run=run if resume else None)
         if on_note is not None:
-            on_note(precision.in_words(config, device=place))
-        demonstrations, source = _read(data, on_frame)
-        if resume:
-            source.require_same(read_json(Source, run / runs.SOURCE), run)
-        elif overwrite and team.leads:
-            runs.remove(run)
-        if team.leads:
-            write_json(source, run / runs.SOURCE)
-        learner = build_learner(config, seed=seed)
+            on_note(precision.in_words(config, device=place, resumes=resume))
+        agreement.require_shares(team, config.optimiser.batch_size)
         with distributed.joined(team, place):
+            demonstrations, source = _read(data, on_frame)
+            if resume:
+                source.require_same(read_json(Source, run / runs.SOURCE), run)
             return fit(
-                learner,
+                build_learner(config, seed=seed),
                 demonstrations.to(place),
                 config,
                 folder=run,
                 seed=seed,
                 resume=resume,
+                on_ready=(lambda: _begin(run, source, replaces=overwrite)) if team.leads else None,
                 on_epoch=on_epoch,
                 on_step=on_step,
                 device=place,
@@ -141,6 +139,13 @@ def train(
             )
     except ModelsError as error:
         raise RunError(str(error)) from error
+
+
+def _begin(run: Path, source: Source, *, replaces: bool) -> None:
+    """Make a run folder ready, and delete the run that is in it if that is to be replaced."""
+    if replaces:
+        runs.remove(run)
+    write_json(source, run / runs.SOURCE)
 
 
 def _read(

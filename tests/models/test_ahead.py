@@ -47,3 +47,16 @@ def test_the_threads_of_the_step_are_left_alone():
     before = torch.get_num_threads()
     assert list(one_ahead([1, 2])) == [1, 2]
     assert torch.get_num_threads() == before
+
+
+def test_threads_that_begin_later_compute_with_as_many_threads_as_before():
+    before, seen = torch.get_num_threads(), []
+    torch.set_num_threads(3)
+    try:
+        assert list(one_ahead([1, 2])) == [1, 2]
+        later = threading.Thread(target=lambda: seen.append(torch.get_num_threads()))
+        later.start()
+        later.join()
+    finally:
+        torch.set_num_threads(before)
+    assert seen == [3]

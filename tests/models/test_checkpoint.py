@@ -105,6 +105,15 @@ def test_weights_of_another_network_are_refused(run, small_config):
         load(run)
 
 
+@pytest.mark.parametrize("value", [torch.nan, torch.inf])
+def test_weights_that_are_not_finite_are_refused_by_name(value, run):
+    tensors, _ = checkpoint.read_tensors(run / checkpoint.MODEL, device=torch.device("cpu"))
+    tensors["energy.first.weight"][0, 0] = value
+    checkpoint.write_tensors(run / checkpoint.MODEL, tensors, epoch=1)
+    with pytest.raises(CheckpointError, match=r"not finite \(energy.first.weight\)"):
+        load(run)
+
+
 def test_a_damaged_state_is_refused(run):
     (run / checkpoint.STATE).write_text('{"epoch": 1, "colour": "red"}')
     with pytest.raises(CheckpointError, match=r"Cannot read '.*state.json'"):

@@ -55,14 +55,25 @@ def test_a_block_convolution_equals_a_convolution_of_stride_2():
     plain = nn.Conv2d(3, 4, 5, 2).double()
     plain.load_state_dict(blocks.state_dict())
     results = []
-    for layer in (blocks, plain):
+    for convolve, layer in ((blocks.in_blocks, blocks), (plain, plain)):
         picture = torch.linspace(-1, 1, 2 * 3 * 20 * 14, dtype=torch.float64)
         picture = picture.sin().reshape(2, 3, 20, 14).requires_grad_()
-        result = layer(picture)
+        result = convolve(picture)
         result.square().sum().backward()
         results.append((result, picture.grad, layer.weight.grad, layer.bias.grad))
     for ours, theirs in zip(*results, strict=True):
         torch.testing.assert_close(ours, theirs)
+
+
+@pytest.mark.parametrize(("dtype", "is_used"), [(torch.bfloat16, True), (torch.float32, False)])
+def test_blocks_are_used_only_where_they_are_quicker(dtype, is_used, monkeypatch):
+    used, in_blocks = [], BlockConv2d.in_blocks
+    monkeypatch.setattr(
+        BlockConv2d, "in_blocks", lambda self, x: used.append(x) or in_blocks(self, x)
+    )
+    layer = BlockConv2d(3, 4, 5, 2).to(dtype)
+    layer(torch.zeros(1, 3, 20, 14, dtype=dtype))
+    assert bool(used) == is_used
 
 
 def test_the_seed_alone_sets_the_first_weights():

@@ -1,4 +1,5 @@
 import dataclasses
+import json
 
 import pytest
 import torch
@@ -67,5 +68,26 @@ def test_what_is_asked_for_is_taken_and_slowness_is_told(fast, small_config):
 @pytest.mark.parametrize("recorded", ["float32", "bfloat16"])
 def test_settings_of_older_runs_load_as_they_were(recorded, small_config):
     config = small_config("da-ibc", precision=recorded)
-    text = to_json(config).replace('"precision": "auto"', f'"precision": "{recorded}"')
-    assert from_json(text).optimiser == dataclasses.replace(config.optimiser, precision=recorded)
+    config = dataclasses.replace(
+        config, sampler=dataclasses.replace(config.sampler, precision="float32")
+    )
+    settings = json.loads(to_json(config))
+    del settings["sampler"]["precision"]  # older runs have none, and act in what is fast
+    loaded = from_json(json.dumps(settings))
+    assert loaded.optimiser == config.optimiser
+    assert loaded.sampler == dataclasses.replace(config.sampler, precision="auto")
+
+
+@pytest.mark.parametrize(
+    ("is_fast", "recorded", "note"),
+    [
+        (False, "bfloat16", "Training on cpu in bfloat16, as this run began; that is slow here."),
+        (True, "float32", "Training on cpu in float32, as this run began."),
+    ],
+)
+def test_a_run_that_goes_on_is_given_no_advice_that_would_be_refused(
+    fast, small_config, is_fast, recorded, note
+):
+    fast(is_fast)
+    config = small_config("ibc", precision=recorded)
+    assert precision.in_words(config, device=CPU, resumes=True) == note

@@ -19,18 +19,14 @@ TRAIN = textwrap.dedent(
     import dataclasses, os, sys
     from pathlib import Path
     import torch
+    from mjdrive.benchmarks.carried import demonstrations
     from models.distributed import joined, team_of
-    from models.interfaces import Batch, TensorDemonstrations
     from models.learners import build_learner
     from models.presets import quick
     from models.training import fit
 
     folder, epochs = Path(sys.argv[1]), int(sys.argv[2])
     torch.set_num_threads(1)
-    generator = torch.Generator().manual_seed(0)
-    bev = torch.randint(0, 256, (11, 5, 192, 192), generator=generator, dtype=torch.uint8)
-    state = torch.rand(11, 3, generator=generator)
-    actions = 2 * torch.rand(11, 2, generator=generator) - 1
     config = quick("da-ibc")
     config = dataclasses.replace(
         config,
@@ -48,9 +44,34 @@ TRAIN = textwrap.dedent(
 
     learner, team = build_learner(config, seed=0), team_of(os.environ)
     with joined(team, torch.device("cpu")):
-        demonstrations = TensorDemonstrations(Batch(bev, state, actions))
         resume = (folder / "state.json").exists()
-        fit(learner, demonstrations, config, folder=folder, resume=resume, team=team, on_epoch=stop)
+        fit(learner, demonstrations(11), config, folder=folder, resume=resume, team=team, on_epoch=stop)
+    """
+)
+MISMATCH = textwrap.dedent(
+    """
+    import dataclasses, os, sys
+    from pathlib import Path
+    import torch
+    from models.distributed import joined, team_of
+    from models.errors import HardwareError
+    from models.interfaces import Batch, TensorDemonstrations
+    from models.learners import build_learner
+    from models.presets import quick
+    from models.training import fit
+
+    team = team_of(os.environ)
+    num, precision = ((8, "bfloat16"), (7, "float32"))[team.rank]
+    bev, actions = torch.zeros(num, 5, 192, 192, dtype=torch.uint8), torch.zeros(num, 2)
+    data = TensorDemonstrations(Batch(bev, torch.zeros(num, 3), actions))
+    config = quick("bc-beta")
+    settings = dataclasses.replace(config.optimiser, epochs=1, batch_size=4, precision=precision)
+    config = dataclasses.replace(config, optimiser=settings)
+    try:
+        with joined(team, torch.device("cpu")):
+            fit(build_learner(config, seed=0), data, config, team=team)
+    except HardwareError as error:
+        Path(sys.argv[1], f"{team.rank}.txt").write_text(str(error))
     """
 )
 TORCHRUN = ("-m", "torch.distributed.run", "--standalone", "--nproc-per-node", "2")
@@ -82,17 +103,22 @@ def train_here(script, monkeypatch):
     return train
 
 
-def test_a_run_that_two_processes_began_and_one_finished_is_that_of_one(
-    train_here, script, tmp_path
-):
-    result = subprocess.run(
-        [sys.executable, *TORCHRUN, str(script), str(tmp_path / "two"), "1"],
+def torchrun(script, *arguments):
+    """Run a script in two processes."""
+    return subprocess.run(
+        [sys.executable, *TORCHRUN, str(script), *map(str, arguments)],
         capture_output=True,
         text=True,
         env={**os.environ, "OMP_NUM_THREADS": "1"},
         timeout=240,
         check=False,
     )
+
+
+def test_a_run_that_two_processes_began_and_one_finished_is_that_of_one(
+    train_here, script, tmp_path
+):
+    result = torchrun(script, tmp_path / "two", 1)
     assert result.returncode == 0, result.stderr
     assert len((tmp_path / "two/metrics.jsonl").read_text().splitlines()) == 1
     start, *ends = (
@@ -106,26 +132,51 @@ def test_a_run_that_two_processes_began_and_one_finished_is_that_of_one(
     assert max(differences.values()) < LARGEST_DIFFERENCE, differences
 
 
+def test_processes_that_would_train_different_things_all_refuse_and_say_what_differs(tmp_path):
+    script = tmp_path / "train.py"
+    script.write_text(MISMATCH)
+    result = torchrun(script, tmp_path)
+    assert result.returncode == 0, result.stderr
+    refusals = {(tmp_path / f"{rank}.txt").read_text() for rank in range(2)}
+    assert len(refusals) == 1
+    (refusal,) = refusals
+    assert "Processes 0 and 1 would not train the same" in refusal
+    for difference in ("optimiser.precision: bfloat16, float32", "number of pairs: 8, 7"):
+        assert difference in refusal
+    assert "seed" not in refusal
+
+
+def gradients_of_parts(config, demonstrations, rank, size):
+    """Loss and gradients that one process of a team adds, minibatch by minibatch."""
+    run = training._Run(
+        build_learner(config, seed=0),
+        demonstrations,
+        seed=0,
+        device=torch.device("cpu"),
+        team=Team(rank, size),
+    )
+    for minibatch in run._minibatches(run._order(0), 0, is_training=True):
+        loss = run._differentiate(minibatch)
+        yield [torch.tensor(loss), *(gradient.clone() for gradient in run.state.gradients())]
+
+
 @pytest.mark.parametrize("method", ["bc-beta", "ibc", "da-ibc"])
+@pytest.mark.parametrize(("precision", "bound"), [("float32", 1e-4), ("bfloat16", 1e-2)])
 def test_the_gradients_of_the_parts_sum_to_that_of_the_minibatch(
-    method, small_config, demonstrations, monkeypatch
+    method, precision, bound, small_config, demonstrations, monkeypatch
 ):
+    """In float32 each tensor, in bfloat16 all of them together, each as a share of its norm."""
     monkeypatch.setattr(training, "sum_over", lambda team, tensors: None)
-    config = small_config(method, batch_size=9)  # of 10 pairs: parts of 4 and 5, and of 0 and 1
-
-    def gradients(rank, size):
-        run = training._Run(
-            build_learner(config, seed=0),
-            demonstrations,
-            seed=0,
-            device=torch.device("cpu"),
-            team=Team(rank, size),
-        )
-        for minibatch in run._minibatches(run._order(0), 0, is_training=True):
-            loss = run._differentiate(minibatch)
-            yield [torch.tensor(loss), *(gradient.clone() for gradient in run.state.gradients())]
-
-    for whole, *parts in zip(gradients(0, 1), gradients(0, 2), gradients(1, 2), strict=True):
-        for expected, first, second in zip(whole, *parts, strict=True):
-            scale = float(expected.norm())
-            torch.testing.assert_close(first + second, expected, rtol=0, atol=1e-4 * scale + 1e-9)
+    # Of 10 pairs: parts of 4 and 5, and of 0 and 1.
+    config = small_config(method, batch_size=9, precision=precision)
+    sides = (gradients_of_parts(config, demonstrations, *team) for team in ((0, 1), (0, 2), (1, 2)))
+    for whole, *parts in zip(*sides, strict=True):
+        pairs = [(one, first + second) for one, first, second in zip(whole, *parts, strict=True)]
+        if precision == "bfloat16":
+            all_of_them = (
+                torch.cat([it.flatten() for it in side]) for side in zip(*pairs, strict=True)
+            )
+            pairs = [tuple(all_of_them)]
+        for expected, found in pairs:
+            atol = bound * float(expected.norm()) + 1e-9
+            assert float((found - expected).norm()) <= atol

@@ -50,6 +50,13 @@ def test_what_is_learnt_is_the_clean_label(episode: Episode, town02: Town) -> No
     np.testing.assert_allclose(demonstrations.actions[:LENGTH], episode.labels, rtol=1e-6)
 
 
+def test_a_process_that_gets_no_pair_of_a_minibatch_gets_an_empty_batch(
+    episode: Episode, town02: Town
+) -> None:
+    batch = PackedDemonstrations([episode], town02).batch(torch.arange(0))
+    assert [tensor.shape for tensor in batch] == [(0, 5, 192, 192), (0, 3), (0, 2)]
+
+
 def test_batches_hold_the_views_of_the_projector_bit_by_bit(episode: Episode, town02: Town) -> None:
     demonstrations = PackedDemonstrations([episode], town02)
     projector = BevProjector(town02)
