@@ -49,7 +49,8 @@ def numeric_dataclasses() -> list[type]:
         kind
         for module in modules
         for _, kind in inspect.getmembers(module, inspect.isclass)
-        if dataclasses.is_dataclass(kind) and kind.__module__ == module.__name__
+        if dataclasses.is_dataclass(kind)
+        and (kind.__module__ + ".").startswith(module.__name__ + ".")
     ]
 
 

@@ -1,0 +1,27 @@
+"""Every setting of the learners, among them each ambiguity of the paper; presets are in `models.presets`."""
+
+from models.config.explicit import BetaConfig
+from models.config.implicit import DensityConfig, DensityKind, NegativesConfig
+from models.config.learner import METHODS, LearnerConfig, Method
+from models.config.network import STATE_INPUTS, NetworkConfig, StateInput
+from models.config.optimiser import OptimiserConfig
+from models.config.samplers import Choice, DfoConfig, GridConfig, Precision, SamplerConfig
+
+__all__ = [
+    "METHODS",
+    "STATE_INPUTS",
+    "BetaConfig",
+    "Choice",
+    "DensityConfig",
+    "DensityKind",
+    "DfoConfig",
+    "GridConfig",
+    "LearnerConfig",
+    "Method",
+    "NegativesConfig",
+    "NetworkConfig",
+    "OptimiserConfig",
+    "Precision",
+    "SamplerConfig",
+    "StateInput",
+]
