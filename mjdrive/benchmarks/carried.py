@@ -1,11 +1,16 @@
 """Demonstrations without a drive: a car is carried along random ways, a metre a step, and labelled with their bends."""
 
+from pathlib import Path
+
 import numpy as np
 from jaxtyping import Float
 
 from mjdrive.datatypes import Episode
+from mjdrive.episodes import dataset, store
+from mjdrive.episodes.manifest import Manifest
 from mjdrive.learning.batches import PackedDemonstrations
 from mjdrive.town import library, routing
+from mjdrive.versions import versions
 
 TOWN = "town01"
 WAY = 1000
@@ -19,10 +24,40 @@ def demonstrations(num: int, *, seed: int = 0) -> PackedDemonstrations:
         num: Number of pairs of observation and action [-].
         seed: Decides ways and labels.
     """
+    return PackedDemonstrations(_episodes(num, seed), library.load(TOWN))
+
+
+def write_dataset(folder: Path, num: int, *, seed: int = 0) -> None:
+    """Write such demonstrations as `mjdrive collect` writes its own.
+
+    Args:
+        folder: New folder, or one of such demonstrations, which are replaced.
+        num: Number of pairs of observation and action [-].
+        seed: Decides ways and labels.
+    """
+    entries = []
+    for number, episode in enumerate(_episodes(num, seed)):
+        name = f"way-{number:02}"
+        path = folder / f"{name}.hdf5"
+        store.write(episode, path)
+        content = path.read_bytes()
+        entries.append(dataset.describe(episode, name=name, file=path.name, content=content))
+    manifest = Manifest(
+        town=TOWN,
+        town_digest=library.load(TOWN).digest,
+        seed=seed,
+        settings={},
+        versions=versions(),
+        num_planned=len(entries),
+        episodes=tuple(entries),
+    )
+    dataset.write_manifest(manifest, folder)
+
+
+def _episodes(num: int, seed: int) -> list[Episode]:
     rng = np.random.default_rng(seed)
-    town = library.load(TOWN)
     lengths = [WAY] * (num // WAY) + [num % WAY] * (num % WAY > 0)
-    return PackedDemonstrations([_episode(length, rng) for length in lengths], town)
+    return [_episode(length, rng) for length in lengths]
 
 
 def _episode(num_steps: int, rng: np.random.Generator) -> Episode:

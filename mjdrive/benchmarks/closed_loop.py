@@ -18,6 +18,7 @@ from mjdrive.learning.pilot import Pilot
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import library
 from models import presets
+from models.hardware import choose_device
 from models.interfaces import Learner
 from models.learners import build_learner
 
@@ -44,7 +45,7 @@ def measure(plan: Plan) -> tuple[Figure, ...]:
     simulation = Simulation(library.load("town02"))
     note = (
         f"Real time is 300 s. One round; untrained networks decide, the PID expert's action is driven. Wall time; "
-        f"threads: {torch.get_num_threads()}."
+        f"threads: {torch.get_num_threads()}; networks on {choose_device()}."
     )
     if plan.quick:
         note += f" From {num_steps} steps."

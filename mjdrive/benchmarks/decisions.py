@@ -68,6 +68,6 @@ def decision(settings: SamplerConfig, seen: Observation) -> Callable[[], object]
         settings: How it chooses.
         seen: What it decides on.
     """
-    pilot = Pilot(network(settings), name="DA-IBC")
+    pilot = Pilot(network(settings), name="DA-IBC", device="cpu")  # where the naive side is
     pilot.reset(0)
     return lambda: pilot.act(seen)

@@ -93,7 +93,10 @@ class NaiveLoop:
     def _info_nce(self, features: Tensor, actions: Tensor) -> Tensor:
         shape = (len(actions), self._num_negatives)
         negatives = actions[torch.randint(len(actions), shape)] + 0.22 * torch.randn(*shape, 2)
-        candidates = torch.cat((actions[:, None], negatives.clamp(-1, 1)), dim=1)
+        return self._contrast(features, actions, negatives.clamp(-1, 1))
+
+    def _contrast(self, features: Tensor, actions: Tensor, negatives: Tensor) -> Tensor:
+        candidates = torch.cat((actions[:, None], negatives), dim=1)
         tiled = features[:, None].expand(-1, candidates.shape[1], -1)
         energies = self._head(torch.cat((tiled, candidates), dim=2)).squeeze(-1)
         return F.cross_entropy(-energies, torch.zeros(len(actions), dtype=torch.long))

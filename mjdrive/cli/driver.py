@@ -112,6 +112,7 @@ class Driver:
             "car_digest": car.digest,
             "policy_cars": json.dumps(dict(self.learnt_cars), sort_keys=True),
             "policy_digest": self.digest,
+            **({} if self.pilot is None else {"policy_device": str(self.pilot.device)}),
             "settings": json.dumps(settings, sort_keys=True),
             **versions.to_metadata(versions.versions()),
         }

@@ -11,32 +11,39 @@ from mjdrive.learning.settings import acting_settings
 from models import checkpoint
 from models.energy_scoring import resolved
 from models.errors import ModelsError
+from models.hardware import choose_device
 from models.interfaces import Learner
 
 
 class Pilot:
     """Drives with a trained network.
 
-    The same seed gives the same actions with any number of threads, but not with another number format, so `config` says
-    the one that is used here where the settings of the run leave it open.
+    The same seed gives the same actions with any number of threads, but not on another device or with another number
+    format, so `device` says where it acts, and `config` in which format where the settings of the run leave it open.
 
     Args:
-        learner: The network.
+        learner: The network; it is moved.
         name: How summaries call it.
+        device: Where it acts; a GPU where there is one, else the CPU, if None.
 
     Attributes:
         name: How summaries call it.
+        device: Where it acts.
         config: Settings of the network, with the number format that it acts in.
     """
 
-    def __init__(self, learner: Learner, *, name: str) -> None:
+    def __init__(
+        self, learner: Learner, *, name: str, device: torch.device | str | None = None
+    ) -> None:
+        self.device = choose_device() if device is None else torch.device(device)
         sampler = learner.config.sampler
-        sampler = dataclasses.replace(sampler, precision=resolved(sampler.precision))
+        precision = resolved(sampler.precision, self.device)
+        sampler = dataclasses.replace(sampler, precision=precision)
         learner.config = dataclasses.replace(learner.config, sampler=sampler)
         self.name = name
         self.config = learner.config
-        self._learner = learner.eval()
-        self._generator = torch.Generator()
+        self._learner = learner.to(self.device).eval()
+        self._generator = torch.Generator(self.device)
 
     def reset(self, seed: int) -> None:
         """Start a new stream of random numbers."""
@@ -45,19 +52,22 @@ class Pilot:
     @torch.inference_mode()
     def act(self, view: Observation) -> Action:
         """Choose the action for the next control interval."""
-        bev = torch.tensor(view.bev)[None]
-        state = torch.tensor(view.state)[None]
+        bev = torch.tensor(view.bev, device=self.device)[None]
+        state = torch.tensor(view.state, device=self.device)[None]
         chosen = self._learner.act(bev, state, generator=self._generator)
         acceleration, steering = chosen[0].tolist()
         return Action(acceleration=acceleration, steering=steering)
 
 
-def load(run: Path, *, preset: str | None = None) -> Pilot:
+def load(
+    run: Path, *, preset: str | None = None, device: torch.device | str | None = None
+) -> Pilot:
     """Load the policy of a training run.
 
     Args:
         run: Folder that `mjdrive train` made.
         preset: Whose way to choose actions to take; the run's own if None.
+        device: Where it acts; a GPU where there is one, else the CPU, if None.
 
     Returns:
         The policy, named after the folder.
@@ -72,4 +82,4 @@ def load(run: Path, *, preset: str | None = None) -> Pilot:
         raise RunError(str(error)) from error
     if preset is not None:
         learner.config = acting_settings(learner.config, preset=preset)
-    return Pilot(learner, name=run.resolve().name)
+    return Pilot(learner, name=run.resolve().name, device=device)

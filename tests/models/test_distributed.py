@@ -93,7 +93,7 @@ def test_a_process_that_loses_another_says_so_and_what_to_do(monkeypatch):
 
     monkeypatch.setattr(torch.distributed, "all_reduce", lost)
     with pytest.raises(
-        HardwareError, match="Process 0 of 2 has lost another: .*:4711. What"
+        HardwareError, match=r"Process 0 of 2 has lost another: .*:4711. What"
     ) as told:
         sum_over(Team(0, 2), [torch.ones(2)])
     assert "--resume" in str(told.value)

@@ -11,6 +11,7 @@ from mjdrive.errors import ConfigError, RunError
 from mjdrive.learning import pilot
 from models import checkpoint, hardware, presets
 from models.energy_scoring import resolved
+from models.interfaces import Learner
 from models.learners import build_learner
 
 SEEN = Observation(bev=np.full((5, 192, 192), 80, np.uint8), state=np.zeros(3, np.float32))
@@ -84,3 +85,34 @@ def test_unknown_preset_and_folders_without_a_run_are_refused(run: Path, tmp_pat
     (run / checkpoint.MODEL).write_bytes(b"cut")
     with pytest.raises(RunError, match=r"Cannot read .*model.safetensors"):
         pilot.load(run)
+
+
+def test_it_acts_by_itself_on_the_gpu_where_there_is_one(
+    run: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With stand-ins for all that needs a GPU."""
+    gpu, moved, drawing = torch.device("cuda"), [], []
+    monkeypatch.setattr(torch.cuda, "is_available", lambda: True)
+    monkeypatch.setattr(hardware, "bfloat16_is_fast", lambda device: device == gpu)
+    monkeypatch.setattr(Learner, "to", lambda self, device: moved.append(device) or self)
+    monkeypatch.setattr(torch, "Generator", drawing.append)
+    learner = build_learner(presets.quick("da-ibc"), seed=0)
+    policy = pilot.Pilot(learner, name="mine")
+    assert policy.device == gpu
+    assert (moved, drawing) == ([gpu], [gpu])
+    assert policy.config.sampler.precision == "bfloat16"
+
+
+def test_what_it_sees_goes_to_its_device(run: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    elsewhere = torch.device("meta")
+    monkeypatch.setattr(torch, "Generator", lambda device: None)
+    policy = pilot.load(run, device=elsewhere)
+    seen = []
+
+    def act(bev: torch.Tensor, state: torch.Tensor, *, generator: object) -> torch.Tensor:
+        seen.extend([bev.device, state.device])
+        return torch.zeros(1, 2)
+
+    monkeypatch.setattr(policy._learner, "act", act)
+    policy.act(SEEN)
+    assert seen == [elsewhere, elsewhere]
