@@ -11,13 +11,13 @@ import json
 import statistics
 import sys
 from collections.abc import Callable, Sequence
-from functools import lru_cache
 from pathlib import Path
 
 import click
 import numpy as np
 
 from mjdrive.cli.console import progress_bars
+from mjdrive.cli.main import Script
 from mjdrive.cli.options import Jobs, chosen_executor, executor_options
 from mjdrive.cli.solving import solve_rows
 from mjdrive.config import CollectConfig
@@ -60,7 +60,7 @@ class Checking:
 
     def begin(self) -> Callable[[Job, Tell], "Drive"]:
         """Nothing to prepare: a simulation is made when the first job asks for it."""
-        return lambda job, tell: drive(job)
+        return Checker()
 
 
 @dataclasses.dataclass(frozen=True)
@@ -94,17 +94,29 @@ class Drive:
         return ", ".join(flaws)
 
 
-@lru_cache(maxsize=1)
-def ready(expert: str, car: str, town_name: str) -> tuple[Simulation, Policy[Situation]]:
-    """A simulation and an expert in it; the last one of this process is kept."""
-    simulation = Simulation(library.load(town_name), car=cars.load(car))
-    return simulation, expert_of(CollectConfig(expert=experts.known(expert)), simulation)
+class Checker:
+    """Checks drives; simulation and expert of the last one are kept for the next.
+
+    They are kept in here and not in a cache of this module, which clusters would look for where it is not.
+    """
+
+    def __init__(self) -> None:
+        self._made_for: tuple[str, str, str] | None = None
+
+    def __call__(self, job: Job, tell: Tell) -> Drive:
+        """Check the drive of a job."""
+        wanted = (job.expert, job.car, job.town)
+        if wanted != self._made_for:
+            self._simulation = Simulation(library.load(job.town), car=cars.load(job.car))
+            settings = CollectConfig(expert=experts.known(job.expert))
+            self._expert = expert_of(settings, self._simulation)
+            self._made_for = wanted
+        return drive(job, self._simulation, self._expert)
 
 
-def drive(job: Job) -> Drive:
+def drive(job: Job, simulation: Simulation, expert: Policy[Situation]) -> Drive:
     """Drive one route with one light seed, undisturbed, and look at it."""
     expert_name, town_name, route_name, seed = job.expert, job.town, job.route, job.seed
-    simulation, expert = ready(expert_name, job.car, town_name)
     town = simulation.town
     settings = CollectConfig(
         routes=(route_name,), disturbance=None, expert=experts.known(expert_name)
@@ -165,7 +177,7 @@ def solves(drives: Sequence[Drive]) -> str:
     return "; ".join(told.values()) or "-"
 
 
-@click.command()
+@click.command(cls=Script)
 @click.option("--expert", "names", multiple=True, default=("pid",), show_default=True)
 @click.option("--town", "towns", multiple=True, default=("town01", "town02"), show_default=True)
 @click.option("--car", default="default", show_default=True)

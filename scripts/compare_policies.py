@@ -6,6 +6,7 @@ junction.
 Example: python scripts/compare_policies.py pid runs/bc-beta runs/ibc runs/da-ibc --out drives/comparison
 """
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -13,8 +14,10 @@ import click
 from mjdrive import versions
 from mjdrive.cli.console import episode_bars
 from mjdrive.cli.driver import find_driver
+from mjdrive.cli.main import Script
 from mjdrive.cli.options import Jobs, chosen_executor, executor_options
 from mjdrive.datatypes import Town
+from mjdrive.errors import NameTakenError
 from mjdrive.evaluation.drives import Driving, PlannedDrive, make_drives
 from mjdrive.evaluation.metrics import DriveSummary
 from mjdrive.evaluation.spread import FIGURES, summarise_drives
@@ -35,7 +38,24 @@ def as_row(name: str, drives: list[DriveSummary], town: Town) -> str:
     return f"| {' | '.join(cells)} |"
 
 
-@click.command()
+def folders_of(policies: Sequence[str], out: Path) -> list[Path]:
+    """Folders of the drives of each policy, called as it is.
+
+    Raises:
+        NameTakenError: If two are called the same.
+    """
+    names = [Path(name).name for name in policies]
+    for name in names:
+        if names.count(name) > 1:
+            alike = ", ".join(it for it in policies if Path(it).name == name)
+            raise NameTakenError(
+                f"{alike} would all drive into '{out / name}'. Expected policies of different names: rename a run, or "
+                f"compare them with another --out."
+            )
+    return [out / name for name in names]
+
+
+@click.command(cls=Script)
 @click.argument("policies", nargs=-1, required=True)
 @click.option("--town", "town_name", default="town02", show_default=True)
 @click.option("--steps", "num_steps", default=3000, show_default=True)
@@ -58,16 +78,20 @@ def main(
     """Compare policies on the same starts, lights and seeds."""
     town, car = library.load(town_name), cars.load()
     executor = chosen_executor(jobs, backend, address)
+    drivers = [
+        find_driver(name, Path("runs"), preset=None if name in experts.NAMES else preset)
+        for name in policies
+    ]
+    folders = folders_of(policies, out)
     planned = [PlannedDrive(f"seed-{seed}", seed) for seed in range(num_seeds)]
     print(f"| policy | {' | '.join(FIGURES.values())} | branches, all seeds | clean drives |")
     print(f"|{'---|' * (len(FIGURES) + 3)}")
-    for name in policies:
-        driver = find_driver(name, Path("runs"), preset=None if name in experts.NAMES else preset)
+    for driver, folder in zip(drivers, folders, strict=True):
         with episode_bars(driver.name, total=num_seeds) as progress:
             drives = make_drives(
-                Driving(driver, town, car, num_steps, versions.versions()),
+                Driving(driver, town, car, num_steps, versions.all_versions()),
                 planned,
-                out / Path(name).name,
+                folder,
                 description={"town": town.name, **driver.metadata(town, car, num_steps)},
                 executor=executor,
                 report_progress=progress,

@@ -1,5 +1,7 @@
 """The `mjdrive` command."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import rich_click as click
@@ -35,23 +37,38 @@ class MjdriveGroup(click.RichGroup):
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run the chosen command; a mistake that the user can mend is told in one line."""
-        try:
+        with _mistakes_in_one_line(ctx):
             return super().invoke(ctx)
-        except MjdriveError as error:
-            click.echo(f"Error: {' '.join(str(error).split())}", err=True)
-            ctx.exit(EXIT_MISTAKE)
-        except OSError as error:
-            # A folder that cannot be made or written to is the user's to mend.
-            click.echo(f"Error: {error}. Expected a place that can be written to.", err=True)
-            ctx.exit(EXIT_MISTAKE)
-        except KeyboardInterrupt:
-            # Every file is written whole or not at all, so there is nothing to clean up.
-            click.echo(
-                "\nInterrupted. Files are whole: `collect` goes on when it is run again without --overwrite, "
-                "`train` with --resume.",
-                err=True,
-            )
-            ctx.exit(EXIT_INTERRUPTED)
+
+
+class Script(click.RichCommand):
+    """A command of its own, as those in scripts/, that tells them apart in the same way."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run it; a mistake that the user can mend is told in one line."""
+        with _mistakes_in_one_line(ctx):
+            return super().invoke(ctx)
+
+
+@contextmanager
+def _mistakes_in_one_line(ctx: click.Context) -> Iterator[None]:
+    try:
+        yield
+    except MjdriveError as error:
+        click.echo(f"Error: {' '.join(str(error).split())}", err=True)
+        ctx.exit(EXIT_MISTAKE)
+    except OSError as error:
+        # A folder that cannot be made or written to is the user's to mend.
+        click.echo(f"Error: {error}. Expected a place that can be written to.", err=True)
+        ctx.exit(EXIT_MISTAKE)
+    except KeyboardInterrupt:
+        # Every file is written whole or not at all, so there is nothing to clean up.
+        click.echo(
+            "\nInterrupted. Files are whole: `collect` goes on when it is run again without --overwrite, "
+            "`train` with --resume.",
+            err=True,
+        )
+        ctx.exit(EXIT_INTERRUPTED)
 
 
 @click.group(cls=MjdriveGroup, help=HELP, context_settings={"help_option_names": ["-h", "--help"]})
