@@ -9,6 +9,7 @@ import os
 import pickle
 import signal
 import threading
+import time
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
@@ -24,6 +25,9 @@ from mjdrive.execution.work import J, Job, R, Tell, Work, seldom
 
 BETWEEN_REPORTS = 0.1
 """Least time between two reports of a process [s]."""
+
+END_WITHIN = 5.0
+"""Time for all processes to end when they are told to; then they are killed [s]."""
 
 _THREADS = "OMP_NUM_THREADS"
 """Says to numpy and torch how many threads they may have."""
@@ -50,12 +54,13 @@ class PoolExecutor:
         waiting = deque(jobs)
         under_way: dict[Connection, J] = {}
         processes: list[SpawnProcess] = []
+        connections: list[Connection] = []
         try:
             with _no_interrupts(), _threads_shared_by(num_processes):
-                started = [_start(processes) for _ in range(num_processes)]
+                connections.extend(_start(processes) for _ in range(num_processes))
             # Plainly: multiprocessing's own way shares the memory of tensors, which needs both processes alive.
             content = pickle.dumps(work)
-            for connection in started:
+            for connection in connections:
                 under_way[connection] = _hand_out(waiting, connection, content)
             while under_way:
                 for connection in _ready(under_way):
@@ -70,10 +75,7 @@ class PoolExecutor:
                         under_way[connection] = _hand_out(waiting, connection)
                     yield job, result
         finally:
-            for process in processes:
-                process.terminate()
-            for process in processes:
-                process.join()
+            _end(processes, connections)
 
 
 def _start(processes: list[SpawnProcess]) -> Connection:
@@ -86,6 +88,20 @@ def _start(processes: list[SpawnProcess]) -> Connection:
     processes.append(process)
     theirs.close()  # so that the end of the process is the end of the connection
     return ours
+
+
+def _end(processes: Sequence[SpawnProcess], connections: Sequence[Connection]) -> None:
+    """End processes whatever they do; one that is stopped, or deep in the system, hears of nothing but the last word."""
+    for process in processes:
+        process.terminate()
+    for connection in connections:
+        connection.close()
+    ending_by = time.monotonic() + END_WITHIN
+    for process in processes:
+        process.join(max(0.0, ending_by - time.monotonic()))
+        if process.is_alive():
+            process.kill()
+            process.join()
 
 
 def _ready(under_way: dict[Connection, J]) -> list[Connection]:

@@ -17,6 +17,7 @@ from typing import Any
 from mjdrive.errors import WorkerError
 from mjdrive.execution.outcomes import Outcome, outcome_of, result_of
 from mjdrive.execution.packages import require_package
+from mjdrive.execution.patience import Patience
 from mjdrive.execution.ray_address import require_cluster
 from mjdrive.execution.work import J, Job, R, Work, seldom
 
@@ -54,7 +55,11 @@ class RayExecutor:
     def run(
         self, work: Work[J, R], jobs: Sequence[J], *, on_progress: Callable[[J, int], None]
     ) -> Generator[tuple[J, R]]:
-        """Do the jobs; see `Executor.run`."""
+        """Do the jobs; see `Executor.run`.
+
+        Raises:
+            ClusterError: If the cluster loses all its cores.
+        """
         with _connection(self._address) as ray:
             attempt = ray.remote(num_cpus=1, max_retries=RETRIES)(_attempt)
             progress = ray.remote(num_cpus=0, max_restarts=-1)(_Progress).remote()
@@ -62,16 +67,21 @@ class RayExecutor:
             shared = [ray.put(work)]
             waiting = deque(jobs)
             under_way: dict[Any, J] = {}
+            patience = Patience()
             try:
                 while waiting or under_way:
-                    while waiting and len(under_way) < self._room(ray):
+                    num_cores = ray.cluster_resources().get("CPU", 0.0)
+                    while waiting and len(under_way) < self._room(num_cores):
                         job = waiting.popleft()
                         under_way[attempt.remote(shared, job, progress)] = job
                     ready, _ = ray.wait(list(under_way), timeout=0.0)
                     if not ready:
                         # Not in `ray.wait`, which makes exit status 1 of any signal that ends it.
                         time.sleep(_WAIT)
-                    _tell(ray, progress, {job.name: job for job in under_way.values()}, on_progress)
+                    jobs_by_name = {job.name: job for job in under_way.values()}
+                    if _tell(ray, progress, jobs_by_name, on_progress) or ready:
+                        patience.hear()
+                    patience.wait(num_cores)
                     for reference in ready:
                         job = under_way.pop(reference)
                         yield job, result_of(_fetched(ray, reference, job))
@@ -79,8 +89,8 @@ class RayExecutor:
                 for reference in under_way:
                     ray.cancel(reference, force=True)
 
-    def _room(self, ray: Any) -> int:
-        return self._num_at_once or max(1, 2 * int(ray.cluster_resources().get("CPU", 1)))
+    def _room(self, num_cores: float) -> int:
+        return self._num_at_once or max(1, 2 * int(num_cores))
 
 
 class _Progress:
@@ -119,12 +129,16 @@ def _attempt(shared: list[Any], job: Job, progress: Any) -> Outcome[Any]:
 
 def _tell(
     ray: Any, progress: Any, jobs: dict[str, J], on_progress: Callable[[J, int], None]
-) -> None:
-    """Pass on what is known; the process that knows it may be lost as any other, and begins again."""
-    with contextlib.suppress(ray.exceptions.RayError):
-        for name, done in ray.get(progress.take.remote(), timeout=_ANSWER).items():
-            if name in jobs:
-                on_progress(jobs[name], done)
+) -> bool:
+    """Pass on what is known, if anything; the process that knows it may be lost as any other, and begins again."""
+    try:
+        told: dict[str, int] = ray.get(progress.take.remote(), timeout=_ANSWER)
+    except ray.exceptions.RayError:
+        return False
+    for name, done in told.items():
+        if name in jobs:
+            on_progress(jobs[name], done)
+    return bool(told)
 
 
 def _fetched(ray: Any, reference: Any, job: Job) -> Outcome[Any]:

@@ -32,7 +32,7 @@ class SlurmExecutor:
     """Does the jobs on a Slurm cluster.
 
     Args:
-        num_at_once: Jobs of an array under way at most, or None for as many as there are [-].
+        num_at_once: Jobs under way at most, or None for as many as there are [-].
         cluster: "slurm"; "local" stands in for it with processes of this machine, for tests.
         folder: Where work, results and logs lie meanwhile; on a file system that all machines see.
         poll: Time between two looks at what is finished [s].
@@ -56,7 +56,7 @@ class SlurmExecutor:
                 "There is no command 'sbatch' here. Expected a machine from which jobs are submitted to Slurm; "
                 "log in there, or take --backend local or ray."
             )
-        self._num_at_once = num_at_once or JOBS_AN_ARRAY
+        self._num_at_once = num_at_once
         self._cluster = cluster
         self._folder = folder
         self._poll = poll
@@ -67,9 +67,15 @@ class SlurmExecutor:
         """Do the jobs; see `Executor.run`. Slurm does not tell how far a job is."""
         self._folder.mkdir(parents=True, exist_ok=True)
         folder = Path(tempfile.mkdtemp(prefix="run-", dir=self._folder)).resolve()
-        for start in range(0, len(jobs), JOBS_AN_ARRAY):
-            under_way = self._submit(work, jobs[start : start + JOBS_AN_ARRAY], folder)
+        arrays = [
+            jobs[start : start + JOBS_AN_ARRAY] for start in range(0, len(jobs), JOBS_AN_ARRAY)
+        ]
+        # All at once; but Slurm limits what is under way an array, so with a limit one after the other.
+        for group in [arrays] if self._num_at_once is None else [[array] for array in arrays]:
+            under_way: dict[Any, J] = {}
             try:
+                for array in group:
+                    under_way |= self._submit(work, array, folder)
                 for task, job in self._finished(under_way):
                     yield job, result_of(_fetched(task, job, folder))
             finally:
@@ -90,7 +96,7 @@ class SlurmExecutor:
             name="mjdrive",
             cpus_per_task=1,
             timeout_min=MINUTES_A_JOB,
-            slurm_array_parallelism=self._num_at_once,
+            slurm_array_parallelism=self._num_at_once or JOBS_AN_ARRAY,
         )
         path = folder / "work.pkl"
         write_atomically(path, cloudpickle.dumps(work))

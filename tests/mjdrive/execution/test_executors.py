@@ -2,6 +2,7 @@
 
 import importlib.util
 import socket
+import subprocess
 import time
 
 import pytest
@@ -50,7 +51,19 @@ def test_a_missing_package_is_named_with_its_extra(
         executor_for(backend=backend)
 
 
-@pytest.mark.parametrize("address", ["head", "head:", "head:port", "ray://head:10001", ":6379"])
+@pytest.mark.parametrize(
+    "address",
+    [
+        "head",
+        "head:",
+        "head:port",
+        "ray://head:10001",
+        ":6379",
+        "10.0..7:6379",
+        "head:²",
+        "head:99999",
+    ],
+)
 def test_what_is_no_address_is_refused(address: str) -> None:
     with pytest.raises(ClusterError, match="is no HOST:PORT"):
         executor_for(backend="ray", address=address)
@@ -72,3 +85,13 @@ def test_somebody_who_listens_but_is_no_cluster_is_refused(monkeypatch: pytest.M
         address = f"127.0.0.1:{silent.getsockname()[1]}"
         with pytest.raises(ClusterError, match="did not answer as a Ray cluster within 4 s"):
             executor_for(backend="ray", address=address)
+
+
+@pytest.mark.parametrize("num_cores", ["0", "0.0", "0.5"])
+def test_a_cluster_without_a_core_is_refused(
+    num_cores: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    joined = subprocess.CompletedProcess([], 0, stdout=f"whatever Ray says\n{num_cores}\n")
+    monkeypatch.setattr(subprocess, "run", lambda *words, **options: joined)
+    with pytest.raises(ClusterError, match=r"has no core.*ray start.*joins it"):
+        executor_for(backend="ray")

@@ -10,6 +10,7 @@ import pytest
 from squares import Number, Squares, Stubborn, Threads, expected, numbers
 
 from mjdrive.errors import DataError, WorkerError
+from mjdrive.execution import pool
 from mjdrive.execution.pool import PoolExecutor, available_cores
 from mjdrive.execution.serial import SerialExecutor
 from mjdrive.execution.work import Executor
@@ -103,3 +104,27 @@ def test_processes_share_the_cores(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("OMP_NUM_THREADS", "3")
     chosen = results(PoolExecutor(2), Threads(), numbers(1, 2))
     assert set(chosen.values()) == {"3"}
+
+
+def test_a_process_that_does_not_end_when_told_is_killed(
+    squares: Squares, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pool, "END_WITHIN", 0.5)
+    slow = replace(squares, seconds=30.0)
+    stopped: list[int] = []
+
+    def stop(job: Number, steps: int) -> None:
+        """A stopped process hears SIGTERM only when it goes on."""
+        (pid,) = {pid for value, pid in slow.attempts() if value == job.value}
+        os.kill(pid, signal.SIGSTOP)
+        stopped.append(pid)
+        raise KeyboardInterrupt
+
+    run = PoolExecutor(2).run(slow, numbers(1, 2), on_progress=stop)
+    began = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        next(run)
+    assert time.monotonic() - began < 25.0
+    for pid in stopped:
+        with pytest.raises(ProcessLookupError):
+            os.kill(pid, 0)

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from squares import Squares, expected, numbers
+from squares import Number, Squares, expected, numbers
 
 from mjdrive.errors import ClusterError, DataError, WorkerError
 from mjdrive.execution import slurm
@@ -52,12 +52,40 @@ def test_a_job_that_is_killed_is_told_with_its_log(
     assert list((tmp_path / "slurm").glob("run-*/*log*"))
 
 
+def noted_arrays(monkeypatch: pytest.MonkeyPatch) -> list[list[int]]:
+    """Numbers of each array that is submitted from now on."""
+    submit, arrays = SlurmExecutor._submit, []
+
+    def note(self: SlurmExecutor, work: Squares, jobs: list[Number], folder: Path) -> object:
+        arrays.append([job.value for job in jobs])
+        return submit(self, work, jobs, folder)
+
+    monkeypatch.setattr(SlurmExecutor, "_submit", note)
+    return arrays
+
+
 def test_long_lists_go_in_arrays_that_slurm_takes(
     executor: SlurmExecutor, squares: Squares, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(slurm, "JOBS_AN_ARRAY", 2)
+    arrays = noted_arrays(monkeypatch)
     done = executor.run(squares, numbers(1, 2, 3), on_progress=lambda job, steps: None)
-    assert {job.name: result for job, result in done} == expected(1, 2, 3)
+    first, _ = next(done)
+    assert arrays == [[1, 2], [3]], "no array waits for the slowest job of another"
+    assert {first.name} | {job.name for job, _ in done} == set(expected(1, 2, 3))
+
+
+def test_with_a_limit_arrays_go_one_after_the_other(
+    squares: Squares, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(slurm, "JOBS_AN_ARRAY", 1)
+    arrays = noted_arrays(monkeypatch)
+    limited = SlurmExecutor(num_at_once=1, cluster="local", folder=tmp_path / "slurm", poll=0.1)
+    done = limited.run(squares, numbers(1, 2), on_progress=lambda job, steps: None)
+    for known in ([[1]], [[1], [2]]):
+        next(done)
+        assert arrays == known
+    assert list(done) == []
 
 
 def test_a_machine_without_sbatch_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
