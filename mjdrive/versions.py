@@ -10,6 +10,14 @@ from mjdrive.errors import WorkerError
 PREFIX = "version."
 """`Episode.metadata` names that begin so hold the version of a package."""
 
+_OPENCV = (
+    "opencv-python-headless",
+    "opencv-python",
+    "opencv-contrib-python-headless",
+    "opencv-contrib-python",
+)
+"""Names under which the module cv2 may be installed."""
+
 
 def versions() -> dict[str, str]:
     """Versions of mjdrive, Python, MuJoCo, NumPy and torch, without importing them."""
@@ -21,6 +29,29 @@ def versions() -> dict[str, str]:
     }
 
 
+def all_versions() -> dict[str, str]:
+    """Those of `versions`, and of the other packages that decide views, solutions, files or pictures."""
+    return {
+        **versions(),
+        **{name: version_of(name) for name in ("casadi", "h5py", "matplotlib", "shapely")},
+        "opencv": version_of(*_OPENCV),
+    }
+
+
+def version_of(*packages: str) -> str:
+    """Version of the first of some packages that is installed; "unknown" if none is.
+
+    Args:
+        packages: Names under which a package may be installed.
+    """
+    for package in packages:
+        try:
+            return importlib.metadata.version(package)
+        except importlib.metadata.PackageNotFoundError:
+            continue
+    return "unknown"
+
+
 def require_same(expected: Mapping[str, str]) -> None:
     """Refuse to work for a machine of other versions, whose bytes would differ.
 
@@ -30,7 +61,7 @@ def require_same(expected: Mapping[str, str]) -> None:
     Raises:
         WorkerError: If they differ from those here.
     """
-    here = versions()
+    here = all_versions()
     differing = sorted(name for name in expected if here.get(name) != expected[name])
     if differing:
         raise WorkerError(

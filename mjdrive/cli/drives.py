@@ -52,7 +52,7 @@ def drive_episodes(
     }
     require_same_drives(folder, description)
     planned = plan_drives(num_episodes, seed=seed)
-    work = Driving(driver, town, car, num_steps, versions.versions())
+    work = Driving(driver, town, car, num_steps, versions.all_versions())
     late_solves: list[int] = []
     name = f"{driver.name} in {town.name}"
     with ended_by_sigterm(), episode_bars(name, total=num_episodes) as progress:

@@ -23,6 +23,8 @@ from mjdrive.episodes.plan import PlannedEpisode
 from mjdrive.expert.reference import require_green, stop_lines
 from mjdrive.expert.solves import SolveWatch
 from mjdrive.simulation.simulation import Simulation
+from mjdrive.town import library
+from mjdrive.vehicle import cars
 from mjdrive.vehicle.cars import CarModel
 
 
@@ -51,6 +53,7 @@ class Collecting:
         car: Which car drives.
         collection: The description of the collection.
         number: Number of the collection in its data set [-].
+        versions: Of the software where the collection was asked for.
     """
 
     town: Town
@@ -59,15 +62,19 @@ class Collecting:
     car: CarModel
     collection: Collection
     number: int
+    versions: Mapping[str, str]
 
     def begin(self) -> Callable[[PlannedEpisode, Callable[[int], None]], Driven]:
         """Build the simulation and the expert; what comes back drives one episode.
 
         Raises:
             SolverError: If the solver of the MPC expert is missing.
-            WorkerError: If this is a machine with other versions than where the collection was asked for.
+            WorkerError: If this is a machine with other versions than where the collection was asked for, or with
+                another car or town of that name.
         """
-        versions.require_same(self.collection.versions)
+        versions.require_same(self.versions)
+        library.require_same(self.town)
+        cars.require_same(self.car)
         return self.collector.drive
 
     @cached_property

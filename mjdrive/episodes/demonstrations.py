@@ -85,7 +85,7 @@ def collect(
         planned = tuple(
             dataclasses.replace(episode, name=f"{episode.name}-mix{number}") for episode in planned
         )
-    work = Collecting(town, routes, settings, car, collection, number)
+    work = Collecting(town, routes, settings, car, collection, number, versions.all_versions())
     finished = {
         entry.name: entry
         for entry in (() if overwrite else manifest.episodes)

@@ -11,6 +11,7 @@ from typing import NamedTuple, Protocol, runtime_checkable
 
 from mjdrive import config, versions
 from mjdrive.datatypes import Episode, Town
+from mjdrive.episodes import store
 from mjdrive.episodes.plan import episode_seed
 from mjdrive.errors import ConfigError, DataError
 from mjdrive.evaluation import report
@@ -18,6 +19,8 @@ from mjdrive.evaluation.metrics import DriveSummary
 from mjdrive.execution.work import Executor, Tell
 from mjdrive.files import write_atomically
 from mjdrive.simulation.simulation import Simulation
+from mjdrive.town import library
+from mjdrive.vehicle import cars
 from mjdrive.vehicle.cars import CarModel
 
 DESCRIPTION = "drives.json"
@@ -99,9 +102,12 @@ class Driving:
         """Build the simulation; what comes back makes one drive.
 
         Raises:
-            WorkerError: If this is a machine with other versions than where the drives were asked for.
+            WorkerError: If this is a machine with other versions than where the drives were asked for, or with another
+                car or town of that name.
         """
         versions.require_same(self.versions)
+        library.require_same(self.town)
+        cars.require_same(self.car)
         return partial(self._drive, Simulation(self.town, car=self.car))
 
     def _drive(self, simulation: Simulation, planned: PlannedDrive, tell: Tell) -> Driven:
@@ -151,11 +157,13 @@ def make_drives(
     require_same_drives(folder, description)
     finished = {}
     for drive in planned:
-        summary = _summary(folder / drive.name)
+        summary = _finished(folder / drive.name)
         if summary is not None:
             finished[drive.name] = summary
             report_progress(drive.name, work.num_steps, work.num_steps)
     missing = [drive for drive in planned if drive.name not in finished]
+    if not missing:
+        return [finished[drive.name] for drive in planned]
 
     def on_progress(drive: PlannedDrive, done: int) -> None:
         report_progress(drive.name, min(done, work.num_steps - 1), work.num_steps)
@@ -165,7 +173,7 @@ def make_drives(
             # First, so that a folder with a drive in it always says what it is.
             write_atomically(folder / DESCRIPTION, _as_json(description))
             _keep(driven.files, folder / drive.name)
-            summary = _summary(folder / drive.name)
+            summary = _finished(folder / drive.name)
             assert summary is not None, "a drive was kept without its figures"
             finished[drive.name] = summary
             report_progress(drive.name, work.num_steps, work.num_steps)
@@ -196,11 +204,14 @@ def require_same_drives(folder: Path, description: Mapping[str, str]) -> None:
         )
 
 
-def _summary(folder: Path) -> DriveSummary | None:
-    """The figures of a drive, which are written last; None if it is not there or not whole."""
+def _finished(folder: Path) -> DriveSummary | None:
+    """The figures of a drive, which are written last; None if any of its files is not there or not whole."""
+    if not all((folder / name).is_file() for name in report.FILES):
+        return None
     try:
+        store.read(folder / report.EPISODE)
         return config.read_json(DriveSummary, folder / report.SUMMARY)
-    except ConfigError:
+    except (ConfigError, DataError):
         return None
 
 

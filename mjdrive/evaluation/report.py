@@ -16,6 +16,12 @@ EPISODE = "episode.hdf5"
 SUMMARY = "summary.json"
 """The figures of a drive, written after all else."""
 
+TRAJECTORY = "trajectory.png"
+ACTIONS = "actions.png"
+
+FILES = (EPISODE, TRAJECTORY, ACTIONS, SUMMARY)
+"""All files of a drive, in the order of writing."""
+
 
 def write_drive(episode: Episode, town: Town, folder: Path) -> DriveSummary:
     """Write a drive, its pictures and, last of all, its figures.
@@ -34,8 +40,8 @@ def write_drive(episode: Episode, town: Town, folder: Path) -> DriveSummary:
     require_new(folder)
     summary = summarise(episode, town)
     store.write(episode, folder / EPISODE)
-    figures.draw_trajectory(episode, town, folder / "trajectory.png")
-    timelines.draw_actions(episode, town, folder / "actions.png")
+    figures.draw_trajectory(episode, town, folder / TRAJECTORY)
+    timelines.draw_actions(episode, town, folder / ACTIONS)
     config.write_json(summary, folder / SUMMARY)
     return summary
 

@@ -1,12 +1,13 @@
 """Find and load towns: those that come with mjdrive, and the user's own in the folder towns/."""
 
 import hashlib
+import platform
 from functools import lru_cache
 from pathlib import Path
 
 from mjdrive.config import read_json
 from mjdrive.datatypes import Town
-from mjdrive.errors import TownFormatError, UnknownNameError
+from mjdrive.errors import TownFormatError, UnknownNameError, WorkerError
 from mjdrive.town import opendrive
 from mjdrive.town.network import build_town
 from mjdrive.town.settings import TownSettings
@@ -96,6 +97,26 @@ def load(name: str) -> Town:
 def _load_cached(folder: Path, *written: int) -> Town:
     """Load a folder once for each time that its files were written [ns]."""
     return load_folder(folder)
+
+
+def require_same(town: Town) -> None:
+    """Refuse to drive in a town whose folder is not, on this machine and by now, that which it was loaded from.
+
+    Args:
+        town: As it was loaded, perhaps elsewhere; its scenery is read from its folder here.
+
+    Raises:
+        WorkerError: If its folder is missing here, or its files differ.
+    """
+    try:
+        found = digest_of(folder_of(town.name))
+    except (UnknownNameError, OSError):
+        found = "missing"
+    if found != town.digest:
+        raise WorkerError(
+            f"On the machine '{platform.node()}' the town '{town.name}' is {found}; expected the files that it was "
+            f"loaded from, {town.digest}. Put its folder at the same place on all machines."
+        )
 
 
 def load_settings(name: str) -> TownSettings:

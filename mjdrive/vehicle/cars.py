@@ -1,6 +1,7 @@
 """Which car: one that ships with mjdrive, or an MJCF file of your own."""
 
 import hashlib
+import platform
 import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -10,7 +11,7 @@ from pathlib import Path
 import mujoco
 from lxml import etree
 
-from mjdrive.errors import CarError, UnknownNameError
+from mjdrive.errors import CarError, UnknownNameError, WorkerError
 from mjdrive.vehicle.assembly import car_on_road, car_path
 from mjdrive.vehicle.car_control_checks import control_faults
 from mjdrive.vehicle.car_file_checks import file_faults
@@ -62,6 +63,26 @@ def load(name_or_path: str | Path = DEFAULT) -> CarModel:
             "car", str(name_or_path), SHIPPED, hint="Or give an MJCF file, my_car.xml."
         )
     return _load_file(path.name, path)
+
+
+def require_same(car: CarModel) -> None:
+    """Refuse to drive a car whose files are not, on this machine and by now, those that it was loaded from.
+
+    Args:
+        car: As it was loaded, perhaps elsewhere.
+
+    Raises:
+        WorkerError: If its files are missing here, or differ.
+    """
+    try:
+        found = _digest(car.path, mujoco.MjSpec.from_file(str(car.path)))
+    except (OSError, ValueError) as error:
+        found = f"nothing that can be read ({' '.join(str(error).split())})"
+    if found != car.digest:
+        raise WorkerError(
+            f"On the machine '{platform.node()}' the car '{car.path}' is {found}; expected the files that it was loaded "
+            f"from, {car.digest}. Put them at the same place on all machines."
+        )
 
 
 @cache

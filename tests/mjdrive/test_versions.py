@@ -1,8 +1,10 @@
 import re
 
 import mujoco
+import pytest
 
 from mjdrive import versions
+from mjdrive.errors import WorkerError
 
 
 def test_versions_are_those_of_the_packages() -> None:
@@ -15,3 +17,24 @@ def test_versions_are_those_of_the_packages() -> None:
 def test_from_metadata_undoes_to_metadata() -> None:
     found = versions.versions()
     assert versions.from_metadata({**versions.to_metadata(found), "settings": "{}"}) == found
+
+
+def test_machines_that_work_together_compare_more_than_episodes_hold() -> None:
+    found = versions.all_versions()
+    assert set(found) - set(versions.versions()) == {
+        "casadi",
+        "h5py",
+        "matplotlib",
+        "opencv",
+        "shapely",
+    }
+    assert "unknown" not in found.values()
+    versions.require_same(found)
+    for package in ("casadi", "shapely", "opencv"):
+        with pytest.raises(WorkerError, match=f"expected {package} 0.1"):
+            versions.require_same(found | {package: "0.1"})
+
+
+def test_package_under_another_name_is_found_and_a_missing_one_is_unknown() -> None:
+    assert versions.version_of("no-such-package", "mujoco") == mujoco.__version__
+    assert versions.version_of("no-such-package") == "unknown"

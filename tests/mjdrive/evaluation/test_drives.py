@@ -17,6 +17,7 @@ from mjdrive.evaluation.drives import Driving, PlannedDrive, make_drives, plan_d
 from mjdrive.evaluation.metrics import DriveSummary
 from mjdrive.execution.serial import SerialExecutor
 from mjdrive.simulation.simulation import Simulation
+from mjdrive.town import library
 from mjdrive.vehicle import cars
 
 STEPS = 6
@@ -41,8 +42,9 @@ class Glider:
 def glider(
     make_drive: Callable[..., Episode], simulation: Simulation, monkeypatch: pytest.MonkeyPatch
 ) -> Glider:
-    """It needs no simulation; any that is there will do."""
+    """It needs no simulation, any that is there will do; and its town lies in no folder."""
     monkeypatch.setattr(drives, "Simulation", lambda town, *, car: simulation)
+    monkeypatch.setattr(library, "require_same", lambda town: None)
     return Glider(make_drive)
 
 
@@ -55,7 +57,7 @@ def make(
     description: dict[str, str] = SAME,
     **told: Any,
 ) -> list[DriveSummary]:
-    work = Driving(glider, town, cars.load(), STEPS, versions.versions())
+    work = Driving(glider, town, cars.load(), STEPS, versions.all_versions())
     return make_drives(
         work, planned, folder, description=description, executor=SerialExecutor(), **told
     )
@@ -149,8 +151,45 @@ def test_other_drives_and_strangers_are_refused_by_what_differs(
 
 
 def test_a_machine_of_other_versions_does_not_drive(crossing: Town, glider: Glider) -> None:
-    wanted = versions.versions() | {"mujoco": "1.50"}
+    wanted = versions.all_versions() | {"mujoco": "1.50"}
     work = Driving(glider, crossing, cars.load(), STEPS, wanted)
     with pytest.raises(WorkerError, match=r"has mujoco 3.*; expected mujoco 1\.50"):
         work.begin()
     assert glider.driven == []
+
+
+def test_a_drive_that_lost_a_file_or_holds_a_damaged_one_is_mended_by_running_again(
+    crossing: Town, glider: Glider, tmp_path: Path
+) -> None:
+    planned = plan_drives(1, seed=0)
+    make(glider, crossing, tmp_path, planned)
+    before = digests(tmp_path)
+    for name in ("episode.hdf5", "trajectory.png", "actions.png"):
+        (tmp_path / "episode-000" / name).unlink()
+        make(glider, crossing, tmp_path, planned)
+        assert digests(tmp_path) == before
+    episode = tmp_path / "episode-000/episode.hdf5"
+    episode.write_bytes(episode.read_bytes()[:-100])
+    make(glider, crossing, tmp_path, planned)
+    assert digests(tmp_path) == before
+
+
+def test_nothing_is_set_up_where_no_drive_is_missing(
+    crossing: Town, glider: Glider, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    planned = plan_drives(1, seed=0)
+    whole = make(glider, crossing, tmp_path, planned)
+    monkeypatch.delattr(drives, "Simulation")
+    assert make(glider, crossing, tmp_path, planned) == whole
+
+
+def test_a_machine_with_another_car_does_not_drive(
+    crossing: Town, glider: Glider, tmp_path: Path
+) -> None:
+    car = tmp_path / "car.xml"
+    car.write_bytes(cars.load().path.read_bytes())
+    work = Driving(glider, crossing, cars.load(car), STEPS, versions.all_versions())
+    work.begin()
+    car.write_text(car.read_text() + "<!-- heavier -->")
+    with pytest.raises(WorkerError, match=r"the car '.*car\.xml' is .*at the same place"):
+        work.begin()

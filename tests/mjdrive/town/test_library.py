@@ -1,9 +1,10 @@
+import dataclasses
 import shutil
 from pathlib import Path
 
 import pytest
 
-from mjdrive.errors import ConfigError, TownFormatError, UnknownNameError
+from mjdrive.errors import ConfigError, TownFormatError, UnknownNameError, WorkerError
 from mjdrive.town import library
 from mjdrive.town.lane_graph import lane_length
 
@@ -94,3 +95,12 @@ def test_without_towns_the_folders_searched_are_named(
     outside = tmp_path / "assets" / "towns"
     outside.mkdir(parents=True)
     assert library.towns_folder() == outside
+
+
+def test_town_that_differs_or_is_missing_here_is_refused() -> None:
+    town = library.load("town02")
+    library.require_same(town)
+    with pytest.raises(WorkerError, match=rf"'town02' is {town.digest}; expected .* 0000"):
+        library.require_same(dataclasses.replace(town, digest="0000"))
+    with pytest.raises(WorkerError, match="'elsewhere' is missing"):
+        library.require_same(dataclasses.replace(town, name="elsewhere"))

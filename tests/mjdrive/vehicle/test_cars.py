@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from lxml import etree
 
-from mjdrive.errors import CarError, UnknownNameError
+from mjdrive.errors import CarError, UnknownNameError, WorkerError
 from mjdrive.vehicle import cars
 from mjdrive.vehicle.assembly import car_on_road, car_path
 from mjdrive.vehicle.parameters import VehicleParameters
@@ -152,3 +152,17 @@ def test_file_without_any_one_element_is_refused_or_drives_but_never_crashes(tmp
             messages.append(str(error))
     assert outcomes == {cars.CarModel, CarError}
     assert all("docs/cars.md" in message for message in messages)
+
+
+def test_car_that_changed_or_went_since_it_was_loaded_is_refused(my_car):
+    path = my_car()
+    car = cars.load(path)
+    cars.require_same(car)
+    path.write_text(path.read_text() + "<!-- heavier -->")
+    with pytest.raises(
+        WorkerError, match=rf"expected the files that it was loaded from, {car.digest}"
+    ):
+        cars.require_same(car)
+    path.unlink()
+    with pytest.raises(WorkerError, match="nothing that can be read"):
+        cars.require_same(car)
