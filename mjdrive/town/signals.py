@@ -9,6 +9,9 @@ import numpy as np
 
 from mjdrive.datatypes import Signal, Town, TrafficLight
 
+_MOST_KEPT = 256
+"""States of all lights of a town that are kept; a cycle of town02 has far fewer [-]."""
+
 _PHASE_STREAM = 0x116475
 """Keeps the numbers drawn for lights apart from others of the same seed."""
 
@@ -70,28 +73,34 @@ def all_at(town: Town, time: float) -> Mapping[str, Signal]:
     Returns:
         What is shown; the same object while it lasts.
     """
-    return _by_name(town, bytes([cycle.at(time) for cycle in _lights_in_step(town).unlike]))
+    return _lights_in_step(town).at(time)
 
 
-@lru_cache(maxsize=256)
-def _by_name(town: Town, shown: bytes) -> Mapping[str, Signal]:
-    """What every light shows, from what each kind of them does; bytes are looked up faster than signals."""
-    kinds = _lights_in_step(town).kind
-    return MappingProxyType({name: Signal(shown[kind]) for name, kind in kinds.items()})
-
-
-class _LightsInStep(NamedTuple):
+class _LightsInStep:
     """Lights that change together: the cycle of each kind, and which kind every light is of, by name."""
 
-    unlike: tuple[Cycle, ...]
-    kind: Mapping[str, int]
+    def __init__(self, town: Town) -> None:
+        cycles = {name: Cycle.of(light) for name, light in town.lights.items()}
+        kinds = {cycle: index for index, cycle in enumerate(dict.fromkeys(cycles.values()))}
+        self._unlike = tuple(kinds)
+        self._kind = {name: kinds[cycle] for name, cycle in cycles.items()}
+        self._by_name: dict[bytes, Mapping[str, Signal]] = {}
+
+    def at(self, time: float) -> Mapping[str, Signal]:
+        """What every light shows at a time [s]; see `all_at`."""
+        shown = bytes([cycle.at(time) for cycle in self._unlike])  # found faster than signals
+        found = self._by_name.get(shown)
+        if found is None:
+            if len(self._by_name) == _MOST_KEPT:
+                self._by_name.clear()
+            every = {name: Signal(shown[kind]) for name, kind in self._kind.items()}
+            found = self._by_name[shown] = MappingProxyType(every)
+        return found
 
 
 @lru_cache(maxsize=4)
 def _lights_in_step(town: Town) -> _LightsInStep:
-    cycles = {name: Cycle.of(light) for name, light in town.lights.items()}
-    kinds = {cycle: index for index, cycle in enumerate(dict.fromkeys(cycles.values()))}
-    return _LightsInStep(tuple(kinds), {name: kinds[cycle] for name, cycle in cycles.items()})
+    return _LightsInStep(town)
 
 
 def duration(light: TrafficLight) -> float:

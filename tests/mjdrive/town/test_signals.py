@@ -1,3 +1,5 @@
+import dataclasses
+import gc
 from collections import Counter
 
 import numpy as np
@@ -67,3 +69,24 @@ def test_the_phase_is_a_pure_uniform_function_of_the_seed(ladder: Town) -> None:
     assert phases.max() < 45.0
     counts, _ = np.histogram(phases, bins=4, range=(0.0, 45.0))
     assert counts.min() > 70  # 100 expected, standard deviation 8.7
+
+
+def test_towns_that_nobody_uses_any_more_are_let_go() -> None:
+    towns = [dataclasses.replace(library.load("town02")) for _ in range(20)]
+    for town in towns:
+        for time in range(0, 60, 5):
+            signals.all_at(town, float(time))
+    addresses = {id(town) for town in towns}
+    del towns, town
+    gc.collect()
+    alive = [it for it in gc.get_objects() if type(it) is Town and id(it) in addresses]
+    assert len(alive) <= 4
+
+
+def test_no_more_states_are_kept_than_fit(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(signals, "_MOST_KEPT", 2)
+    town = dataclasses.replace(library.load("town02"))
+    for time in TIMES[::37]:
+        each = {light: signals.at(town.lights[light], time) for light in town.lights}
+        assert signals.all_at(town, time) == each
+        assert signals.all_at(town, time) is signals.all_at(town, time)
