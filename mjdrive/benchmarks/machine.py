@@ -1,16 +1,12 @@
 """The machine that a benchmark ran on, as far as it bears on the figures."""
 
-import importlib.metadata
 import os
 import platform
 from dataclasses import dataclass
 from pathlib import Path
 
 from mjdrive.execution.pool import available_cores
-from mjdrive.versions import versions
-
-_PACKAGES = ("casadi", "opencv-python-headless", "shapely")
-"""What else decides how fast things are."""
+from mjdrive.versions import all_versions
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +16,7 @@ class Machine:
     Attributes:
         processor: Name of the CPU.
         num_cores: Cores that this process may use [-].
-        memory_gb: Main memory [GB].
+        memory_gb: Main memory; -1 where it is not known [GB].
         system: Operating system.
         versions: Of the packages that do the work.
         load: Processes that wanted to run at the start, mean over a minute; -1 where it is not known [-].
@@ -36,15 +32,21 @@ class Machine:
 
 def describe() -> Machine:
     """Look at this machine; imports nothing heavy."""
-    others = {name: importlib.metadata.version(name) for name in _PACKAGES}
     return Machine(
         processor=_processor(),
         num_cores=available_cores(),
-        memory_gb=round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9, 1),
+        memory_gb=_memory_gb(),
         system=f"{platform.system()} {platform.machine()}",
-        versions={**versions(), **others},
+        versions=all_versions(),
         load=round(os.getloadavg()[0], 2) if hasattr(os, "getloadavg") else -1.0,
     )
+
+
+def _memory_gb() -> float:
+    try:
+        return round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9, 1)
+    except (AttributeError, ValueError, OSError):  # not POSIX, or one that does not tell
+        return -1.0
 
 
 def _processor() -> str:

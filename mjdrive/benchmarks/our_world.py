@@ -23,6 +23,7 @@ class TownDrive:
     Attributes:
         facts: What is stepped.
         num_resets: Fresh starts so far [-].
+        deciding: Nothing, as the actions are known [s].
         simulation: Where it drives.
         actions: What the expert did.
     """
@@ -34,6 +35,7 @@ class TownDrive:
         )
         self.simulation = Simulation(town)
         self.num_resets = 0
+        self.deciding = 0.0
         self.start()
         expert = PidExpert(town, parameters=self.simulation.car.parameters)
         follow = FollowRoute(self._route)

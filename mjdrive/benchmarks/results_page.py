@@ -28,6 +28,22 @@ def write_page(report: Report, page: Path) -> list[Path]:
     Raises:
         DataError: If the file is missing or lacks a mark.
     """
+    before, after = around_results(page)
+    picture = page.parent / PICTURE
+    draw(report, picture)
+    write_atomically(page, f"{before}{BEGIN}\n{results(report)}{END}{after}".encode())
+    return [page, picture]
+
+
+def around_results(page: Path) -> tuple[str, str]:
+    """What stands before the first mark of a page and after the second.
+
+    Args:
+        page: Markdown file with a line `BEGIN` and a line `END`.
+
+    Raises:
+        DataError: If the file is missing or lacks a mark.
+    """
     text = page.read_text(encoding="utf-8") if page.is_file() else ""
     before, begin, rest = text.partition(BEGIN)
     _, end, after = rest.partition(END)
@@ -36,10 +52,7 @@ def write_page(report: Report, page: Path) -> list[Path]:
             f"Cannot write results into '{page}'; expected a file with a line '{BEGIN}' and a line '{END}' after it. "
             f"BENCHMARKS.md of a checkout is one."
         )
-    picture = page.parent / PICTURE
-    draw(report, picture)
-    write_atomically(page, f"{before}{BEGIN}\n{results(report)}{END}{after}".encode())
-    return [page, picture]
+    return before, after
 
 
 def results(report: Report) -> str:
@@ -47,11 +60,12 @@ def results(report: Report) -> str:
     lines = [line(row) for row in report.all_rows]
     where = report.machine
     versions = ", ".join(f"{name} {version}" for name, version in where.versions.items())
+    memory = f"{where.memory_gb:.0f} GB" if where.memory_gb > 0 else "memory unknown"
     look = " **A quick look: too few rounds to be quoted.**" if report.is_quick else ""
     return "\n".join(
         [
             "",
-            f"Measured on {where.processor}, {where.num_cores} cores, {where.memory_gb:.0f} GB, {where.system}, "
+            f"Measured on {where.processor}, {where.num_cores} cores, {memory}, {where.system}, "
             f"load {where.load:.1f} at the start, in {sum(report.seconds.values()) / 60:.0f} minutes. {versions}.{look}",
             "",
             f"![Ratios against their bars]({PICTURE.as_posix()})",

@@ -13,6 +13,7 @@ from typing import IO, Any, cast
 from mjdrive.errors import WorkerError
 
 _ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+_INSTALL = "run scripts/bench/install_rivals.py again."
 _NO_SCREEN = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
 
 
@@ -61,22 +62,32 @@ def serve(name: str, python: Path, world: Path, argument: str, *, log: Path) -> 
         WorkerError: If it does not start.
     """
     server = Path(str(importlib.resources.files("mjdrive.benchmarks") / "serving.py"))
+    # -P: the folder of `serving.py` must not hide modules of the rivals.
+    command = [str(python), "-P", str(server), str(world), argument]
     with (
         log.open("w+", encoding="utf-8") as complaints,
-        subprocess.Popen(
-            # -P: the folder of `serving.py` must not hide modules of the rivals.
-            [str(python), "-P", str(server), str(world), argument],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=complaints,
-            text=True,
-            env={**os.environ, **_ONE_THREAD, **_NO_SCREEN},
-        ) as process,
+        _started(command, name, complaints) as process,
     ):
         try:
             yield Served(name, _answer(process, complaints, name), process, complaints)
         finally:
             process.kill()
+
+
+def _started(command: list[str], name: str, complaints: IO[str]) -> "subprocess.Popen[str]":
+    try:
+        return subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=complaints,
+            text=True,
+            env={**os.environ, **_ONE_THREAD, **_NO_SCREEN},
+        )
+    except OSError as error:  # the interpreter that an environment was made with may be gone
+        raise WorkerError(
+            f"The process of {name} does not start ({error}). Expected a Python that runs; {_INSTALL}"
+        ) from error
 
 
 def _answer(process: "subprocess.Popen[str]", complaints: IO[str], name: str) -> dict[str, Any]:
@@ -86,7 +97,10 @@ def _answer(process: "subprocess.Popen[str]", complaints: IO[str], name: str) ->
     if not line:
         complaints.seek(0)
         last = complaints.read().strip().rpartition("\n")[2]
+        raise WorkerError(f"The process of {name} ended ({last}). Expected it to step; {_INSTALL}")
+    try:
+        return cast("dict[str, Any]", json.loads(line))
+    except ValueError as error:
         raise WorkerError(
-            f"The process of {name} ended ({last}). Expected it to step; run scripts/bench/install_rivals.py again."
-        )
-    return cast("dict[str, Any]", json.loads(line))
+            f"The process of {name} said '{line.strip()}'. Expected a line of JSON; {_INSTALL}"
+        ) from error

@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from mjdrive.benchmarks import machine
-from mjdrive.benchmarks.comparison import Plan, Row
+from mjdrive.benchmarks.comparison import NotMeasured, Plan, Row
 from mjdrive.benchmarks.machine import Machine
-from mjdrive.errors import UnknownNameError
+from mjdrive.errors import MjdriveError, UnknownNameError
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,14 @@ class Benchmark:
     entry: str
 
     def measure(self, plan: Plan) -> tuple[Row, ...]:
-        """Measure it."""
+        """Measure it; a mistake that the user can mend gives a row that tells it, and costs no other row."""
+        try:
+            return self._rows(plan)
+        except MjdriveError as error:
+            again = f"that, and then: mjdrive bench --only {self.name}"
+            return (NotMeasured(self.name, self.work, str(error), again),)
+
+    def _rows(self, plan: Plan) -> tuple[Row, ...]:
         module, _, function = self.entry.partition(":")
         found = getattr(importlib.import_module(f"{__package__}.{module}"), function)
         return tuple(found(plan))
@@ -92,6 +99,7 @@ def run(
     plan: Plan,
     *,
     on_begin: Callable[[str], None] = lambda name: None,
+    on_report: Callable[[Report], None] = lambda report: None,
 ) -> Report:
     """Measure one benchmark after the other.
 
@@ -99,13 +107,15 @@ def run(
         benchmarks: Which.
         plan: How much, and where things are.
         on_begin: Told the name of each when it begins.
+        on_report: Given all rows so far when one has ended, to be kept whatever comes next.
     """
     where = machine.describe()
-    rows: dict[str, tuple[Row, ...]] = {}
-    seconds: dict[str, float] = {}
+    report = Report(where, plan.quick, {}, {})
     for benchmark in benchmarks:
         on_begin(benchmark.name)
         begin = time.monotonic()
-        rows[benchmark.name] = benchmark.measure(plan)
-        seconds[benchmark.name] = time.monotonic() - begin
-    return Report(where, plan.quick, rows, seconds)
+        rows = report.rows | {benchmark.name: benchmark.measure(plan)}
+        seconds = report.seconds | {benchmark.name: time.monotonic() - begin}
+        report = Report(where, plan.quick, rows, seconds)
+        on_report(report)
+    return report

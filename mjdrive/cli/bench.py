@@ -5,8 +5,10 @@ from typing import TYPE_CHECKING
 
 import rich_click as click
 
+from mjdrive.errors import ConfigError
+
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
 
     from mjdrive.benchmarks.suite import Benchmark, Report
 
@@ -25,7 +27,7 @@ if TYPE_CHECKING:
     "--out",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="FILE.json",
-    help="Write machine, versions and every round to this file.",
+    help="Write machine, versions and every round to this file, as soon as each benchmark has ended.",
 )
 @click.option(
     "--markdown",
@@ -68,9 +70,12 @@ def bench(
         names_table()
         return
     chosen = choose(names)
-    report = (
-        read_json(Report, results) if results else _measured(chosen, quick=quick, rivals=rivals)
-    )
+    if results is not None:
+        _refuse_beside_results(names=names, quick=quick, rivals=rivals)
+    earlier = read_json(Report, results) if results else None
+    if markdown is not None:
+        _require_page(markdown, [it.name for it in chosen] if earlier is None else earlier.rows)
+    report = earlier or _measured(chosen, quick=quick, rivals=rivals, out=out)
     written: list[Path] = []
     if out is not None:
         write_json(report, out)
@@ -82,13 +87,44 @@ def bench(
     report_table(report, written)
 
 
-def _measured(benchmarks: "Sequence[Benchmark]", *, quick: bool, rivals: Path | None) -> "Report":
-    """Run benchmarks in a folder that is gone afterwards, behind a bar."""
+def _refuse_beside_results(*, names: tuple[str, ...], quick: bool, rivals: Path | None) -> None:
+    """Refuse what would have no effect, because nothing is measured."""
+    given = {"--only": bool(names), "--quick": quick, "--rivals": rivals is not None}
+    without_effect = ", ".join(option for option, is_given in given.items() if is_given)
+    if without_effect:
+        raise ConfigError(
+            f"{without_effect} has no effect with --results, which measures nothing. Leave out one or the other."
+        )
+
+
+def _require_page(page: Path, names: "Collection[str]") -> None:
+    """Refuse a page without marks, and a table that lacks benchmarks: it would replace the whole one."""
+    from mjdrive.benchmarks.results_page import around_results
+    from mjdrive.benchmarks.suite import SUITE
+
+    missing = [benchmark.name for benchmark in SUITE if benchmark.name not in names]
+    if missing:
+        raise ConfigError(
+            f"--markdown {page} would lose the rows of {', '.join(missing)}; expected results of all benchmarks. Leave out "
+            f"--markdown to see the rows here, or --only to measure all."
+        )
+    around_results(page)
+
+
+def _measured(
+    benchmarks: "Sequence[Benchmark]", *, quick: bool, rivals: Path | None, out: Path | None
+) -> "Report":
+    """Run benchmarks in a folder that is gone afterwards, behind a bar; what is measured is kept at once."""
     import tempfile
 
     from mjdrive.benchmarks.comparison import Plan
     from mjdrive.benchmarks.suite import run
     from mjdrive.cli.console import ended_by_sigterm, progress_bars
+    from mjdrive.config import write_json
+
+    def keep(report: "Report") -> None:
+        if out is not None:
+            write_json(report, out)
 
     with (
         ended_by_sigterm(),
@@ -106,6 +142,6 @@ def _measured(benchmarks: "Sequence[Benchmark]", *, quick: bool, rivals: Path | 
             bars.update(task, description=f"{names[-1]}: {stage}")
 
         plan = Plan(Path(folder), quick=quick, rivals=rivals, on_stage=go_on)
-        report = run(benchmarks, plan, on_begin=begin)
+        report = run(benchmarks, plan, on_begin=begin, on_report=keep)
         bars.update(task, description="bench", completed=len(benchmarks))
     return report

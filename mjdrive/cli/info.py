@@ -41,7 +41,7 @@ def machine_facts() -> Facts:
     here = machine.describe()
     return {
         "processor": f"{here.processor}, {here.num_cores} cores",
-        "memory": f"{here.memory_gb:g} GB",
+        "memory": f"{here.memory_gb:g} GB" if here.memory_gb > 0 else "unknown",
         "system": here.system,
         "versions": ", ".join(f"{name} {version}" for name, version in here.versions.items()),
     }

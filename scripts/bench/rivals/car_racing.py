@@ -17,6 +17,7 @@ class CarRacingWorld:
     def __init__(self) -> None:
         self._env = gymnasium.make("CarRacing-v3")
         self.num_resets = 0
+        self.deciding = 0.0
         view, _ = self._env.reset(seed=SEED)
         self.facts = {
             "versions": {PACKAGE: importlib.metadata.version(PACKAGE)},

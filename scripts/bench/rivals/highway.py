@@ -29,6 +29,7 @@ class IntersectionWorld:
         }
         self._env = gymnasium.make("intersection-v2", config=config, disable_env_checker=True)
         self.num_resets = 0
+        self.deciding = 0.0
         view, _ = self._env.reset(seed=SEED)
         self.facts = {
             "versions": {PACKAGE: importlib.metadata.version(PACKAGE)},

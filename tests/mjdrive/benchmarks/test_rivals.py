@@ -12,6 +12,7 @@ COUNTING = """
 class World:
     facts = {"versions": {"counting": argument_seen}, "observation": [1]}
     num_resets = 0
+    deciding = 0.0
     def step(self):
         World.num_resets += 1
         print("rivals print whatever they like")
@@ -79,3 +80,32 @@ def test_every_rival_has_a_world_and_pinned_versions() -> None:
         assert (rivals.WORLDS / f"{name}.py").is_file()
         pins = (rivals.WORLDS / f"{name}.txt").read_text().splitlines()
         assert all("==" in pin for pin in pins if not pin.startswith("#"))
+
+
+def test_interpreter_that_is_gone_is_told(tmp_path: Path) -> None:
+    world = world_file(tmp_path, COUNTING)
+    with (
+        pytest.raises(WorkerError, match=r"gone does not start.*install_rivals\.py again"),
+        serve("gone", tmp_path / "python", world, "-", log=tmp_path / "log"),
+    ):
+        pass
+
+
+def test_world_that_says_no_json_is_told(tmp_path: Path) -> None:
+    python = tmp_path / "python"
+    python.write_text("#!/bin/sh\necho 'usage: python'\n")
+    python.chmod(0o755)
+    with (
+        pytest.raises(WorkerError, match=r"odd said 'usage: python'\. Expected a line of JSON"),
+        serve("odd", python, tmp_path, "-", log=tmp_path / "log"),
+    ):
+        pass
+
+
+def test_time_of_deciding_does_not_count(tmp_path: Path) -> None:
+    deciding = COUNTING.replace(
+        "World.num_resets += 1", "import time; time.sleep(0.01); World.deciding += 1.0"
+    )
+    world = world_file(tmp_path, deciding)
+    with serve("slow", Path(sys.executable), world, "7", log=tmp_path / "log") as served:
+        assert -3.0 <= served.steps(3) < -2.5

@@ -1,4 +1,6 @@
 import importlib
+import importlib.metadata
+import os
 from pathlib import Path
 
 import pytest
@@ -7,7 +9,7 @@ from mjdrive.benchmarks import machine, suite
 from mjdrive.benchmarks.comparison import Comparison, Figure, NotMeasured, Plan
 from mjdrive.benchmarks.suite import SUITE, Benchmark, Report, choose
 from mjdrive.config import read_json, write_json
-from mjdrive.errors import ConfigError, UnknownNameError
+from mjdrive.errors import ConfigError, UnknownNameError, WorkerError
 
 
 @pytest.fixture
@@ -72,3 +74,42 @@ def test_machine_is_described() -> None:
     assert described.num_cores >= 1
     assert described.memory_gb > 0.1
     assert {"mjdrive", "mujoco", "torch", "numpy"} <= set(described.versions)
+
+
+def test_benchmark_that_fails_is_a_row_with_its_reason_and_costs_no_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    row = Figure("row", "work", (1.0,), "s")
+
+    def rows(self: Benchmark, plan: Plan) -> tuple[Figure, ...]:
+        if self is SUITE[1]:
+            raise WorkerError("The process ended. Expected it to step; install it again.")
+        return (row,)
+
+    monkeypatch.setattr(Benchmark, "_rows", rows)
+    kept: list[Report] = []
+    found = suite.run(SUITE[:3], Plan(tmp_path), on_report=kept.append)
+    lost = found.all_rows[1]
+    assert found.all_rows == (row, lost, row)
+    assert isinstance(lost, NotMeasured)
+    assert lost.reason.startswith("The process ended")
+    assert SUITE[1].name in lost.command
+    assert [len(report.rows) for report in kept] == [1, 2, 3]
+    assert kept[-1] == found
+
+
+def test_machine_is_described_where_opencv_and_memory_are_unknown(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    find = importlib.metadata.version
+
+    def version(name: str) -> str:
+        if name.startswith("opencv"):
+            raise importlib.metadata.PackageNotFoundError(name)
+        return find(name)
+
+    monkeypatch.setattr(importlib.metadata, "version", version)
+    monkeypatch.delattr(os, "sysconf")
+    described = machine.describe()
+    assert described.versions["opencv"] == "unknown"
+    assert described.memory_gb == -1.0
