@@ -26,9 +26,9 @@ def test_list_names_every_benchmark() -> None:
 
 
 def test_unknown_name_is_one_line_with_a_guess(tmp_path: Path) -> None:
-    status, shown, complaint = run("--only", "bve", "--out", str(tmp_path / "bench.json"))
+    status, shown, complaint = run("--only", "bevv", "--out", str(tmp_path / "bench.json"))
     assert (status, shown) == (2, "")
-    assert re.search(r"Error: Unknown benchmark 'bve'.*Did you mean 'bev'", complaint)
+    assert re.search(r"Error: Unknown benchmark 'bevv'.*Did you mean 'bev'", complaint)
     assert list(tmp_path.iterdir()) == []
 
 
