@@ -49,13 +49,13 @@ class MpcConfig:
     """
 
     horizon: float = 2.0
-    offset_tolerance: float = 0.6
+    offset_tolerance: float = 0.3
     heading_tolerance: float = 0.3
     station_tolerance: float = 0.2
     speed_tolerance: float = 0.1
     acceleration_tolerance: float = 0.6
     jerk_tolerance: float = 0.6
-    steering_rate_tolerance: float = 0.08
+    steering_rate_tolerance: float = 0.15
     steering_jolt_tolerance: float = 1.0
     final_offset_tolerance: float = 0.1
     final_heading_tolerance: float = 0.02
