@@ -111,7 +111,7 @@ def compare(plan: Plan, rival: Rival) -> Row:
         their_rounds=pair.theirs,
         bar=rival.bar,
         piece="step",
-        note=f"{rival.name}: {rival.note}. Processor time of one thread.",
+        note=f"{rival.note}. Processor time of one thread.",
     )
 
 

@@ -115,8 +115,7 @@ def test_bend_is_driven_within_its_lane_and_more_smoothly_than_by_the_pid(ground
     town, route = town_of(line(radius=8.0))
     expert = MpcExpert(town)
     planned = Drive(ground, route).go(expert, 19.0)
-    assert np.sqrt(np.mean(np.square(planned.offsets))) < 0.25
-    assert np.abs(planned.offsets).max() < 0.5 * LANE_WIDTH - 0.5 * CAR.width
+    assert np.abs(planned.offsets).max() < 0.25
     assert planned.states[-1].y > 20.0, "expected the car to be round the bend"
     assert expert.solves.failed == expert.solves.max_iterations == 0
     reacted = Drive(ground, route).go(PidExpert(town), 19.0)
