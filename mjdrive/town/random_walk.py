@@ -65,7 +65,7 @@ class RandomWalk:
         self._rest = np.concatenate([start[None], line[along > station + 1e-9]])
         self._is_ended = False
         self._lay(0)
-        self.advance(0.0)
+        self._lay_on(0.0)
 
     def advance(self, station: float) -> None:
         """Lay the route on ahead of the car and forget it behind; `route` is a new one if that changed it.
@@ -73,8 +73,11 @@ class RandomWalk:
         Args:
             station: Where the car is along the walk [m].
         """
-        if self._is_ended or self._end >= station + AHEAD:
-            return
+        if not self._is_ended and self._end < station + AHEAD:
+            self._lay_on(station)
+
+    def _lay_on(self, station: float) -> None:
+        """Lay the route on beyond what must be known ahead, and make a window of it."""
         while not self._is_ended and self._end < station + AHEAD + STRETCH:
             name = next(self._coming, None)
             if name is None:

@@ -142,3 +142,10 @@ def test_wrong_starts_are_refused(town02: Town) -> None:
     name, lane = next(iter(town02.lanes.items()))
     with pytest.raises(RouteError, match=rf"is not on lane '{name}'"):
         RandomWalk(town02, lane=name, station=lane_length(lane) + 1.0, rng=rng)
+
+
+def test_a_walk_that_starts_on_a_long_lane_knows_its_way_at_once(town01: Town) -> None:
+    name = max(town01.lanes, key=lambda lane: lane_length(town01.lanes[lane]))
+    assert lane_length(town01.lanes[name]) > AHEAD
+    walking = RandomWalk(town01, lane=name, station=0.0, rng=np.random.default_rng(0))
+    assert walking.route.station[-1] >= AHEAD + STRETCH
