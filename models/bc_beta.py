@@ -1,5 +1,7 @@
 """Behavioural cloning with a Beta distribution over each action."""
 
+import math
+
 import torch
 from jaxtyping import Float, UInt8
 from torch import Tensor, nn
@@ -15,7 +17,9 @@ from models.threads import one_thread
 SMALLEST_CONCENTRATION = 1e-6
 
 
-def unit_from_action(actions: Float[Tensor, "B 2"], *, label_clamp: float) -> Float[Tensor, "B 2"]:
+def unit_from_action(
+    actions: Float[Tensor, "*B 2"], *, label_clamp: float
+) -> Float[Tensor, "*B 2"]:
     """Bring actions from [-1, 1] into the open unit interval, where a Beta density is finite.
 
     Args:
@@ -116,6 +120,21 @@ class BcBetaLearner(Learner):
         else:
             unit = _sample(distribution, generator)
         return 2 * unit - 1
+
+    @torch.no_grad()
+    def log_density(
+        self,
+        bev: UInt8[Tensor, "B C H W"],
+        state: Float[Tensor, "B 3"],
+        actions: Float[Tensor, "A N 2"],
+    ) -> Float[Tensor, "B N"]:
+        """Log of the density of actions, in closed form; at the ends, that of the clamped label [nats]."""
+        with one_thread():
+            found = self.distribution(bev, state)
+        alpha, beta = found.concentration1[:, None], found.concentration0[:, None]  # (B, 1, 2)
+        unit = unit_from_action(actions, label_clamp=self.config.beta.label_clamp)
+        log_unit = Beta(alpha, beta, validate_args=False).log_prob(unit).sum(dim=-1)  # (B, N)
+        return log_unit - ACTION_SIZE * math.log(2)  # an action is twice as wide as its unit
 
 
 def _sample(distribution: Beta, generator: torch.Generator) -> Tensor:

@@ -97,6 +97,15 @@ class IbcLearner(Learner):
         """
         return EnergyScorer(self.energy, self.encoder(bev, state), "float32")(actions)
 
+    def log_density(
+        self,
+        bev: UInt8[Tensor, "B C H W"],
+        state: Float[Tensor, "B 3"],
+        actions: Float[Tensor, "A N 2"],
+    ) -> Float[Tensor, "B N"]:
+        """What the energy says of actions, up to a constant of each observation [nats]."""
+        return -self.energies(bev, state, actions)
+
     @torch.no_grad()
     def act(
         self,

@@ -155,6 +155,24 @@ class Learner(nn.Module, ABC):
             Acceleration and steering in [-1, 1] [-].
         """
 
+    @abstractmethod
+    def log_density(
+        self,
+        bev: UInt8[Tensor, "B C H W"],
+        state: Float[Tensor, "B 3"],
+        actions: Float[Tensor, "A N 2"],
+    ) -> Float[Tensor, "B N"]:
+        """How probable actions are, for landscapes and for the likelihood of held-out actions.
+
+        Args:
+            bev: Bird's-eye views in 0..255 [-].
+            state: Speed [m/s], previous acceleration [-] and previous steering [-].
+            actions: Actions for each observation, or one set (A = 1) that all observations share [-].
+
+        Returns:
+            Log of the density given each observation, up to a constant of each observation, in single precision [nats].
+        """
+
 
 def weighted_mean(
     losses: Float[Tensor, " B"], weights: Float[Tensor, " B"] | None

@@ -1,4 +1,5 @@
 import dataclasses
+import math
 
 import pytest
 import torch
@@ -137,3 +138,16 @@ def test_label_noise_bounds_the_concentration_that_one_repeated_label_asks_for(c
     # Noise of 0.2 in [-1, 1] is 0.1 in [0, 1].
     torch.testing.assert_close(spread[0.2][0], torch.full((2,), 0.1), atol=0.02, rtol=0.0)
     assert torch.all(spread[0.0] < 0.5 * spread[0.2])
+
+
+def test_the_log_density_integrates_to_one_and_is_that_of_the_loss(constant_learner, generator):
+    learner = constant_learner(label_noise=0.0)
+    batch = looks_alike(torch.tensor([[0.3, -0.2], [-0.7, 0.5]]))
+    centres = torch.linspace(-1, 1, 257)[1:] - 1 / 256
+    cells = torch.cartesian_prod(centres, centres)[None]
+    density = learner.log_density(batch.bev[:1], batch.state[:1], cells).exp()
+    assert float(density.sum()) * (2 / 256) ** 2 == pytest.approx(1, abs=1e-3)
+    own = learner.log_density(batch.bev, batch.state, batch.actions[:, None])
+    # The loss speaks of actions rescaled to [0, 1], whose density is four times as high.
+    expected = -loss_of(learner, batch, generator) - math.log(4)
+    torch.testing.assert_close(own.mean(), expected)
