@@ -10,19 +10,25 @@ from mjdrive.config.settings import (
     RulesConfig,
     SimulationConfig,
 )
+from mjdrive.config.study import Arm, Demonstrations, Reference, StudyConfig, Variant
 from mjdrive.config.tuning import TuneConfig
 
 __all__ = [
+    "Arm",
     "BevConfig",
     "CollectConfig",
+    "Demonstrations",
     "DisturbanceConfig",
     "ExpertName",
     "ExtraLayer",
     "MpcConfig",
     "PidConfig",
+    "Reference",
     "RulesConfig",
     "SimulationConfig",
+    "StudyConfig",
     "TuneConfig",
+    "Variant",
     "from_dict",
     "read_json",
     "require",

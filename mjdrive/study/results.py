@@ -1,0 +1,336 @@
+"""What a study found, as its JSON files hold it; tables, figures and the report are made from these alone.
+
+study.json                            StudyConfig, versions and digests (`StudyRecord`)
+results.json                          `StudyResults`: every figure of every table
+landscapes/<arm>-<seed>-<moment>.json `Landscape`: what an agent thinks of each action at one moment
+paths/<arm>-<seed>.json               `DrivenPath`: where the long drive of an agent led
+turns/<arm>-<seed>-<exit>.hdf5        one drive through each exit of one junction, for videos (`Turn` lists them)
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from mjdrive.config import StudyConfig
+from mjdrive.evaluation.choices import ChoiceStatistics
+from mjdrive.evaluation.forking import ForkOutcome
+
+STUDY = "study.json"
+RESULTS = "results.json"
+LANDSCAPES = "landscapes"
+PATHS = "paths"
+TURNS = "turns"
+
+
+@dataclass(frozen=True, slots=True)
+class StudyRecord:
+    """What a study is: written first, and compared when it goes on.
+
+    Attributes:
+        settings: All that decides its results.
+        versions: Versions of the software.
+        towns: Digest of each town that is driven in, by name.
+        car: Digest of the car that drives.
+        data: Folder of demonstrations that were there before, as given; empty where the study collects its own.
+        runs: Folder of trained runs that were there before, as given; empty where the study trains its own.
+    """
+
+    settings: StudyConfig
+    versions: Mapping[str, str]
+    towns: Mapping[str, str]
+    car: str
+    data: str = ""
+    runs: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class DriveFigures:
+    """One drive, as the tables count it.
+
+    Attributes:
+        seed: Of the drive [-].
+        steps: Control steps [-].
+        duration_s: Simulated time [s].
+        distance_m: Path length on driving lanes [m].
+        red_lights: Red lights run [-].
+        lights_met: Times that the car came up to a stop line with a light [-].
+        reds_met: Of these, times that the light was red when it came [-].
+        collisions: Collisions with things [-].
+        kerb_strikes: Kerbs hit [-].
+        road_departures: Times that the car left the road [-].
+        wrong_ways: Times that it drove against its lane [-].
+        off_road_s: Time off the driving lanes [s].
+        stuck_s: Time at a standstill with no light to wait for [s].
+        penalty: 0.7 to the power of the red lights run [-].
+        score: Distance times penalty [m].
+        jerk_rms: Root mean square of the jerk [m/s3].
+        steering_whiteness: Root mean square of the rate of the steering command [1/s].
+        steering_unrest: Root mean square of the rate of that rate [1/s2].
+        lane_offset_rms_m: Distance from the centre of the lane while moving outside junctions, root mean square [m].
+        branches_taken: How often each way through a junction was driven, by the name of its lane [-].
+    """
+
+    seed: int
+    steps: int
+    duration_s: float
+    distance_m: float
+    red_lights: int
+    lights_met: int
+    reds_met: int
+    collisions: int
+    kerb_strikes: int
+    road_departures: int
+    wrong_ways: int
+    off_road_s: float
+    stuck_s: float
+    penalty: float
+    score: float
+    jerk_rms: float
+    steering_whiteness: float
+    steering_unrest: float
+    lane_offset_rms_m: float | None
+    branches_taken: Mapping[str, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """A share that grows in steps: from each x on it is the share beside it.
+
+    Attributes:
+        x: Rising; what it is, is said where the curve is used.
+        share: As many shares, rising [-].
+    """
+
+    x: tuple[float, ...]
+    share: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Likelihood:
+    """How likely an agent finds what the expert does where the agent has never been.
+
+    Attributes:
+        frames: Moments looked at [-].
+        gain: Mean log probability of the expert's cell of the grid, above that of an agent to whom all cells are alike [nats].
+        error: Standard error of that mean, as if the moments were independent [nats].
+        junction_gain: The same over the moments in or up to 12 m before a junction; None if there are none [nats].
+    """
+
+    frames: int
+    gain: float
+    error: float
+    junction_gain: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class LandscapeFigures:
+    """How many ways to act an agent sees at the moments before junctions, on the grid of actions.
+
+    Attributes:
+        frames: Moments looked at [-].
+        modes: Mean number of separate ways to act with a mass of 5 % or more [-].
+        multimodal: Share of the moments with more than one [-].
+        heaviest: Mean mass of the heaviest [-].
+        entropy: Mean entropy over the grid [bit].
+    """
+
+    frames: int
+    modes: float
+    multimodal: float
+    heaviest: float
+    entropy: float
+
+
+@dataclass(frozen=True, slots=True)
+class ArmResult:
+    """One agent in one way to act, or a reference.
+
+    Attributes:
+        arm: Name of the arm, or of the reference.
+        variant: Name of the variant; empty for a reference.
+        seed: Training seed; 0 for a reference [-].
+        digest: SHA-256 of the weights, hexadecimal; empty for a reference.
+        drives: The drives of the tables, in the order of their seeds; those of all arms begin alike.
+        long_drive: The long drive; None if it made none.
+        choices: What it chose at junctions in `drives`.
+        all_choices: The same in `drives` and `long_drive`.
+        recall: Branch recall over time in `drives` and then `long_drive`; x in [s].
+        coverage: Share of the town's directed lanes visited over distance, likewise; x in [km].
+        forks: What it made of moments before junctions; none for a reference.
+        likelihood: How likely it finds what the expert does; None for a reference.
+        landscape: How many ways to act it sees; None for a reference.
+    """
+
+    arm: str
+    variant: str
+    seed: int
+    digest: str
+    drives: tuple[DriveFigures, ...]
+    long_drive: DriveFigures | None
+    choices: ChoiceStatistics
+    all_choices: ChoiceStatistics
+    recall: Curve
+    coverage: Curve
+    forks: tuple[ForkOutcome, ...]
+    likelihood: Likelihood | None
+    landscape: LandscapeFigures | None
+
+
+@dataclass(frozen=True, slots=True)
+class ProgressPoint:
+    """An agent before the end of its training, in its main way to act.
+
+    Attributes:
+        arm: Name of the main arm.
+        variant: Name of the variant.
+        seed: Training seed [-].
+        epoch: Complete epochs [-].
+        loss: Mean loss of the last of them [nats].
+        drives: Its drives, shorter and fewer than those of the tables.
+    """
+
+    arm: str
+    variant: str
+    seed: int
+    epoch: int
+    loss: float
+    drives: tuple[DriveFigures, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class DataResult:
+    """A data set that was learnt from, and its own turn balance.
+
+    Attributes:
+        name: Of the data set in the study.
+        town: Where it was driven.
+        episodes: Drives [-].
+        samples: Pairs of observation and action [-].
+        manifest_sha256: Digest of its manifest, hexadecimal.
+        choices: What its expert chose at junctions.
+    """
+
+    name: str
+    town: str
+    episodes: int
+    samples: int
+    manifest_sha256: str
+    choices: ChoiceStatistics
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """A drive of an agent through one exit of a junction, kept to be looked at.
+
+    Attributes:
+        arm: Name of the arm.
+        seed: Training seed [-].
+        approach: Name of the lane that it came from.
+        exit: Name of the junction lane that it took.
+        move: Which way that leads: "left", "straight" or "right".
+        file: Its episode, in the folder of the study.
+    """
+
+    arm: str
+    seed: int
+    approach: str
+    exit: str
+    move: str
+    file: str
+
+
+@dataclass(frozen=True, slots=True)
+class StudyResults:
+    """Every figure of a study.
+
+    Attributes:
+        data: What was learnt from.
+        references: Who drove beside the agents.
+        arms: The agents in their ways to act: by arm in the order of the study, then by seed.
+        progress: The agents while they were trained: by variant, seed and epoch.
+        turns: Drives through the exits of one junction.
+        landscapes: Names of the landscape files.
+        paths: Names of the path files.
+    """
+
+    data: tuple[DataResult, ...]
+    references: tuple[ArmResult, ...]
+    arms: tuple[ArmResult, ...]
+    progress: tuple[ProgressPoint, ...]
+    turns: tuple[Turn, ...]
+    landscapes: tuple[str, ...]
+    paths: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """What was true when an agent was asked; the bird's-eye view is drawn again from it.
+
+    Attributes:
+        name: "junction-left", "junction-right" or "red-light".
+        town: Where.
+        time: Since the start of the drive [s].
+        light_phase: Time into the light cycle at the start of the drive [s].
+        x: Rear-axle centre, world frame [m].
+        y: Rear-axle centre, world frame [m].
+        yaw: Heading [rad].
+        speed: Of the car [m/s].
+        previous: Acceleration and steering commanded before [-].
+        label: Acceleration and steering of the expert, who was on its way to the exit of the name [-].
+    """
+
+    name: str
+    town: str
+    time: float
+    light_phase: float
+    x: float
+    y: float
+    yaw: float
+    speed: float
+    previous: tuple[float, float]
+    label: tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Landscape:
+    """What an agent thinks of every action at one moment.
+
+    Attributes:
+        arm: Name of the main arm of the variant.
+        variant: Name of the variant.
+        seed: Training seed [-].
+        moment: When it was asked.
+        points: Points along each action component, at the centres of as many equal cells of [-1, 1] [-].
+        log_probability: Of each cell, acceleration outermost, one row after the other; all cells sum to 1 [nats].
+        draws: Actions that the arm itself chose, each acceleration and steering [-].
+    """
+
+    arm: str
+    variant: str
+    seed: int
+    moment: Moment
+    points: int
+    log_probability: tuple[float, ...]
+    draws: tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class DrivenPath:
+    """Where a long drive led, five times as coarse as it was driven.
+
+    Attributes:
+        arm: Name of the arm, or of the reference.
+        seed: Training seed; 0 for a reference [-].
+        town: Where.
+        duration_s: Simulated time [s].
+        points: Rear axle twice a second, world frame [m].
+        red_lights: Where red lights were run, world frame [m].
+        mishaps: Where it hit something or left the road, world frame [m].
+    """
+
+    arm: str
+    seed: int
+    town: str
+    duration_s: float
+    points: tuple[tuple[float, float], ...]
+    red_lights: tuple[tuple[float, float], ...]
+    mishaps: tuple[tuple[float, float], ...]
