@@ -2,7 +2,7 @@
 
 study.json                            StudyConfig, versions and digests (`StudyRecord`)
 results.json                          `StudyResults`: every figure of every table
-landscapes/<arm>-<seed>-<moment>.json `Landscape`: what an agent thinks of each action at one moment
+landscapes/<arm>-<seed>-<moment>.json `LandscapeRecord`: what an agent thinks of each action at one moment
 paths/<arm>-<seed>.json               `DrivenPath`: where the long drive of an agent led
 turns/<arm>-<seed>-<exit>.hdf5        one drive through each exit of one junction, for videos (`Turn` lists them)
 """
@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from mjdrive.config import StudyConfig
 from mjdrive.evaluation.choices import ChoiceStatistics
 from mjdrive.evaluation.forking import ForkOutcome
+from mjdrive.study.situations import Moment
 
 STUDY = "study.json"
 RESULTS = "results.json"
@@ -262,46 +263,17 @@ class StudyResults:
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
-    """What was true when an agent was asked; the bird's-eye view is drawn again from it.
-
-    Attributes:
-        name: "junction-left", "junction-right" or "red-light".
-        town: Where.
-        time: Since the start of the drive [s].
-        light_phase: Time into the light cycle at the start of the drive [s].
-        x: Rear-axle centre, world frame [m].
-        y: Rear-axle centre, world frame [m].
-        yaw: Heading [rad].
-        speed: Of the car [m/s].
-        previous: Acceleration and steering commanded before [-].
-        label: Acceleration and steering of the expert, who was on its way to the exit of the name [-].
-    """
-
-    name: str
-    town: str
-    time: float
-    light_phase: float
-    x: float
-    y: float
-    yaw: float
-    speed: float
-    previous: tuple[float, float]
-    label: tuple[float, float]
-
-
-@dataclass(frozen=True, slots=True)
-class Landscape:
-    """What an agent thinks of every action at one moment.
+class LandscapeRecord:
+    """What an agent thinks of every action at one moment; `mjdrive.study.landscapes` measures it.
 
     Attributes:
         arm: Name of the main arm of the variant.
         variant: Name of the variant.
         seed: Training seed [-].
-        moment: When it was asked.
-        points: Points along each action component, at the centres of as many equal cells of [-1, 1] [-].
-        log_probability: Of each cell, acceleration outermost, one row after the other; all cells sum to 1 [nats].
-        draws: Actions that the arm itself chose, each acceleration and steering [-].
+        moment: When it was asked; the bird's-eye view is drawn again from it.
+        points: Points along each action component [-].
+        probabilities: Of the points of the grid, acceleration outermost, one row after the other [-].
+        draws: Actions that the main arm chose, each acceleration and steering [-].
     """
 
     arm: str
@@ -309,7 +281,7 @@ class Landscape:
     seed: int
     moment: Moment
     points: int
-    log_probability: tuple[float, ...]
+    probabilities: tuple[float, ...]
     draws: tuple[tuple[float, float], ...]
 
 
