@@ -115,6 +115,7 @@ def outcome(
     seed: int,
     num_rollouts: int = 50,
     on_rollout: Callable[[int], None] = lambda done: None,
+    on_drive: Callable[[Episode, bool], None] = lambda drive, is_safe: None,
 ) -> ForkOutcome:
     """Live one moment many times.
 
@@ -125,6 +126,7 @@ def outcome(
         seed: Decides the policy's own chance in each rollout.
         num_rollouts: How often [-].
         on_rollout: Told the number of rollouts done.
+        on_drive: Given each drive, and whether it was a safe one.
 
     Returns:
         Where it led.
@@ -140,9 +142,11 @@ def outcome(
             num_steps=round(HORIZON / interval),
             seed=episode_seed(seed, index),
         )
-        if _is_safe(drive, until=float(drive.time[0]) + JUDGED_AFTER):
+        is_safe = _is_safe(drive, until=float(drive.time[0]) + JUDGED_AFTER)
+        if is_safe:
             num_safe += 1
             taken.update(branches_taken(drive, simulation.town).keys() & set(fork.exits))
+        on_drive(drive, is_safe)
         on_rollout(index + 1)
     counts = np.array([taken[name] for name in fork.exits])
     return ForkOutcome(

@@ -6,7 +6,6 @@ landscapes, modes and entropies of all methods mean the same.
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import torch
@@ -15,7 +14,6 @@ from jaxtyping import Float
 from mjdrive.bev.projector import BevProjector
 from mjdrive.datatypes import Observation
 from mjdrive.evaluation.landscape import Mode, entropy_bits, modes
-from mjdrive.files import write_atomically
 from mjdrive.study.situations import Moment
 from models.interfaces import Learner
 
@@ -23,7 +21,7 @@ POINTS = 128
 """Grid points along each action component [-]."""
 
 NUM_DRAWS = 10
-"""Actions that are drawn in each situation, as in the paper [-]."""
+"""Actions that are drawn at each moment, as in the paper [-]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,7 +49,13 @@ class Landscape:
 
 
 def measure(
-    learner: Learner, moments: Iterable[Moment], projector: BevProjector, *, seed: int
+    learner: Learner,
+    moments: Iterable[Moment],
+    projector: BevProjector,
+    *,
+    seed: int,
+    points: int = POINTS,
+    num_draws: int = NUM_DRAWS,
 ) -> tuple[Landscape, ...]:
     """Ask a policy what it thinks in some situations.
 
@@ -60,16 +64,26 @@ def measure(
         moments: Where and when.
         projector: Draws what it sees there.
         seed: Decides the actions that it draws.
+        points: Grid points along each action component [-].
+        num_draws: Actions that are drawn at each moment [-].
 
     Returns:
         One landscape a moment.
     """
-    return tuple(landscape(learner, it.observe(projector), seed=seed) for it in moments)
+    return tuple(
+        landscape(learner, it.observe(projector), seed=seed, points=points, num_draws=num_draws)
+        for it in moments
+    )
 
 
 @torch.no_grad()
 def landscape(
-    learner: Learner, observation: Observation, *, seed: int, points: int = POINTS
+    learner: Learner,
+    observation: Observation,
+    *,
+    seed: int,
+    points: int = POINTS,
+    num_draws: int = NUM_DRAWS,
 ) -> Landscape:
     """Ask a policy what it thinks of all actions, given one observation.
 
@@ -78,13 +92,14 @@ def landscape(
         observation: What it sees.
         seed: Decides the actions that it draws.
         points: Grid points along each action component [-].
+        num_draws: How many [-].
     """
     device = next(learner.parameters()).device
     bev = torch.tensor(observation.bev, device=device)[None]
     state = torch.tensor(observation.state, device=device)[None]
     log_density = learner.log_density(bev, state, action_grid(points).to(device)[None])
     generator = torch.Generator(device).manual_seed(seed)
-    draws = [learner.act(bev, state, generator=generator)[0] for _ in range(NUM_DRAWS)]
+    draws = [learner.act(bev, state, generator=generator)[0] for _ in range(num_draws)]
     return Landscape(
         probabilities=normalised(log_density[0].double().cpu().numpy().reshape(points, points)),
         draws=torch.stack(draws).double().cpu().numpy(),

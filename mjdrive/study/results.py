@@ -3,6 +3,7 @@
 study.json                            StudyConfig, versions and digests (`StudyRecord`)
 results.json                          `StudyResults`: every figure of every table
 landscapes/<arm>-<seed>-<moment>.json `LandscapeRecord`: what an agent thinks of each action at one moment
+fans/<arm>-<seed>-<index>.json        `fans.FanRecord`: one moment before a junction, lived many times
 paths/<arm>-<seed>.json               `DrivenPath`: where the long drive of an agent led
 turns/<arm>-<seed>-<exit>.hdf5        one drive through each exit of one junction, for videos (`Turn` lists them)
 """
@@ -19,6 +20,7 @@ STUDY = "study.json"
 RESULTS = "results.json"
 LANDSCAPES = "landscapes"
 PATHS = "paths"
+FANS = "fans"
 TURNS = "turns"
 
 
@@ -251,6 +253,7 @@ class StudyResults:
         turns: Drives through the exits of one junction.
         landscapes: Names of the landscape files.
         paths: Names of the path files.
+        fans: Names of the fan files.
     """
 
     data: tuple[DataResult, ...]
@@ -260,6 +263,7 @@ class StudyResults:
     turns: tuple[Turn, ...]
     landscapes: tuple[str, ...]
     paths: tuple[str, ...]
+    fans: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

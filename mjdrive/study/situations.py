@@ -91,8 +91,8 @@ def situations(town: Town) -> tuple[Moment, ...]:
     green = _phase(town, lane, Signal.GREEN)
     exits = sorted((town.lanes[name] for name in fork.exits), key=lambda way: way.move)
     return (
-        _moment("fork", "where the ways part", lane, lane, lane_length(lane), green),
-        *(_moment(*_words(way.move), lane, way, INTO_JUNCTION, green) for way in exits),
+        _moment(("fork", "where the ways part"), lane, lane, lane_length(lane), phase=green),
+        *(_moment(_words(way.move), lane, way, INTO_JUNCTION, phase=green) for way in exits),
         *_at_red(town, lane),
     )
 
@@ -125,11 +125,12 @@ def _at_red(town: Town, lane: Lane) -> tuple[Moment, ...]:
     if lane.light is None or Signal.RED not in dict(town.lights[lane.light].program):
         return ()
     phase = _phase(town, lane, Signal.RED)
-    return (_moment("red", "red light", lane, lane, lane_length(lane) - SHORT_OF_LIGHT, phase),)
+    station = lane_length(lane) - SHORT_OF_LIGHT
+    return (_moment(("red", "red light"), lane, lane, station, phase=phase),)
 
 
 def _moment(
-    name: str, title: str, approach: Lane, lane: Lane, station: float, phase: float
+    words: tuple[str, str], approach: Lane, lane: Lane, station: float, *, phase: float
 ) -> Moment:
     """Put the car on a lane, at most at its end."""
     along = geometry.stations(lane.centerline)
@@ -138,6 +139,7 @@ def _moment(
     curvature = np.interp(station, along, geometry.curvatures(lane.centerline))
     parameters = VehicleParameters.default()
     steering = math.atan(parameters.wheelbase * curvature) / parameters.max_steering_angle
+    name, title = words
     waits = name == "red"
     return Moment(
         name=name,
