@@ -21,11 +21,13 @@ class Demonstrations:
         name: Of its folder.
         preset: Settings of `mjdrive collect`.
         routes: Names of the routes to drive; those of the preset if empty.
+        random_walk_km: Drive so far with random turns instead of along the routes; 0 for the routes [km].
     """
 
     name: str
     preset: str = "standard"
     routes: tuple[str, ...] = ()
+    random_walk_km: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +88,7 @@ class StudyConfig:
         episodes: Drives of each agent in each of its ways to act [-].
         steps: Control steps of each of them [-].
         long_steps: Control steps of one more drive of each main arm, for its path and what it sees in time; 0 for none [-].
-        long_seeds: Training seeds whose agents make it [-].
+        detail_seeds: Training seeds whose agents make it, and whose landscapes and turns are kept for pictures [-].
         progress_every: Epochs between two checkpoints that drive, for the progress of training; 0 for none [-].
         progress_episodes: Drives of each such checkpoint [-].
         progress_steps: Control steps of each of them [-].
@@ -94,8 +96,6 @@ class StudyConfig:
         fork_rollouts: How often [-].
         held_out_km: Length of the expert's walk through the town that says how likely its actions are; 0 for none [km].
         held_out_frames: Moments of it that are looked at [-].
-        grid_points: Points along each action component for likelihoods and landscapes [-].
-        landscape_draws: Actions drawn for the pictures of landscapes [-].
     """
 
     preset: str
@@ -111,7 +111,7 @@ class StudyConfig:
     episodes: int = 10
     steps: int = 3000
     long_steps: int = 30_000
-    long_seeds: tuple[int, ...] = (0,)
+    detail_seeds: tuple[int, ...] = (0,)
     progress_every: int = 2
     progress_episodes: int = 2
     progress_steps: int = 1000
@@ -119,19 +119,16 @@ class StudyConfig:
     fork_rollouts: int = 50
     held_out_km: float = 1.0
     held_out_frames: int = 256
-    grid_points: int = 128
-    landscape_draws: int = 10
 
     def __post_init__(self) -> None:
         self._check_names()
         for name in ("episodes", "steps", "progress_episodes", "progress_steps", "held_out_frames"):
             _check(self, name, getattr(self, name) >= 1, "at least 1")
-        for name in ("long_steps", "progress_every", "forks", "held_out_km", "landscape_draws"):
+        for name in ("long_steps", "progress_every", "forks", "held_out_km"):
             _check(self, name, getattr(self, name) >= 0, "0 or more")
         _check(self, "fork_rollouts", self.fork_rollouts >= 1, "at least 1")
-        _check(self, "grid_points", self.grid_points >= 2, "at least 2")
         _check(self, "long_steps", self.long_steps != 1, "0 or at least 2")
-        for name in ("seeds", "ablation_seeds", "long_seeds"):
+        for name in ("seeds", "ablation_seeds", "detail_seeds"):
             seeds = getattr(self, name)
             good = len(set(seeds)) == len(seeds) and all(0 <= seed < 2**32 for seed in seeds)
             _check(self, name, good, "different numbers from 0 to 4294967295")

@@ -14,6 +14,7 @@ from mjdrive.expert.reference import require_green
 from mjdrive.expert.solves import SolveWatch
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import routing
+from mjdrive.town.random_lanes import Choose
 from mjdrive.town.random_walk import RandomWalk
 
 
@@ -60,6 +61,7 @@ def drive_expert(
     config: CollectConfig | None = None,
     on_step: Callable[[int], None] | None = None,
     on_late_solves: Callable[[int], None] | None = None,
+    choose: Choose | None = None,
     metadata: Mapping[str, str] | None = None,
 ) -> Episode:
     """Let an expert take random turns, from the place where `drive` starts with the same seed and steps.
@@ -73,6 +75,7 @@ def drive_expert(
         config: Which expert drives, and its settings; the PID expert if None.
         on_step: Told the number of control steps done.
         on_late_solves: Told at the end how many solves of the expert took long on this machine.
+        choose: Chooses among the ways on instead of chance.
         metadata: Versions, digests and settings to keep with the episode.
 
     Returns:
@@ -94,6 +97,7 @@ def drive_expert(
         # Turns have a stream of their own, so that they do not hang on how a start is drawn.
         rng=np.random.default_rng([seed, 1]),
         length=_way(simulation, config.pid, num_steps),
+        choose=choose,
     )
     simulation.reset(lane=lane, station=station, seed=seed)
     solves = SolveWatch(expert)

@@ -72,9 +72,47 @@ def interval(
     Returns:
         The figure and its percentile interval.
     """
+    drawn = statistic(_drawn(figures, rng, num_draws))
+    return _interval(float(statistic(figures)), drawn, level)
+
+
+def ratio_interval(
+    figures: Float[np.ndarray, "S E"],
+    reference: Float[np.ndarray, "R F"],
+    *,
+    rng: np.random.Generator,
+    statistic: Statistic = mean,
+    level: float = 0.95,
+    num_draws: int = 2000,
+) -> Interval:
+    """Bootstrap the ratio of a figure to that of a reference, whose own chance counts, too.
+
+    Args:
+        figures: One figure for each training seed and episode, in any unit.
+        reference: The same of the reference, in the same unit.
+        rng: Source of the draws.
+        statistic: What is made of them.
+        level: Share of the draws inside the interval [-].
+        num_draws: How many [-].
+
+    Returns:
+        The ratio and its percentile interval [-].
+    """
+    above = statistic(_drawn(figures, rng, num_draws))
+    below = statistic(_drawn(reference, rng, num_draws))
+    return _interval(float(statistic(figures) / statistic(reference)), above / below, level)
+
+
+def _drawn(
+    figures: Float[np.ndarray, "S E"], rng: np.random.Generator, num_draws: int
+) -> Float[np.ndarray, "D S E"]:
+    """Draw seeds with replacement, and the episodes of each likewise."""
     num_seeds, num_episodes = figures.shape
     seeds = rng.integers(num_seeds, size=(num_draws, num_seeds, 1))
     episodes = rng.integers(num_episodes, size=(num_draws, num_seeds, num_episodes))
-    drawn = figures[seeds, episodes]
-    low, high = np.quantile(statistic(drawn), [(1 - level) / 2, (1 + level) / 2])
-    return Interval(float(statistic(figures)), float(low), float(high))
+    return figures[seeds, episodes]
+
+
+def _interval(value: float, drawn: Float[np.ndarray, " D"], level: float) -> Interval:
+    low, high = np.quantile(drawn, [(1 - level) / 2, (1 + level) / 2])
+    return Interval(value, float(low), float(high))

@@ -17,6 +17,19 @@ GATE_HEADING = 0.7
 def branches_taken(episode: Episode, town: Town) -> dict[str, int]:
     """Count the ways through junctions that were driven from their first point to their last.
 
+    Args:
+        episode: The drive.
+        town: The town that it was driven in.
+
+    Returns:
+        How often each junction lane was driven, by name, in order of the names; lanes not driven are left out.
+    """
+    return dict(sorted(Counter(lane for _, lane in branch_passages(episode, town)).items()))
+
+
+def branch_passages(episode: Episode, town: Town) -> list[tuple[int, str]]:
+    """List the ways through junctions that were driven from their first point to their last.
+
     Lanes of one approach begin at the same point, so the way is known at the end: a lane counts when its start was
     the last entrance passed before its end.
 
@@ -25,7 +38,7 @@ def branches_taken(episode: Episode, town: Town) -> dict[str, int]:
         town: The town that it was driven in.
 
     Returns:
-        How often each junction lane was driven, by name, in order of the names; lanes not driven are left out.
+        The step at which each was driven to its end, and the name of the junction lane, in the order of driving.
     """
     entered: dict[str, int] = {}
     events: list[
@@ -35,14 +48,14 @@ def branches_taken(episode: Episode, town: Town) -> dict[str, int]:
         if lane.junction is not None:
             events += [(step, 1, lane) for step in _passages(episode.vehicle, lane, end=0)]
             events += [(step, 0, lane) for step in _passages(episode.vehicle, lane, end=-1)]
-    counts: Counter[str] = Counter()
+    driven: list[tuple[int, str]] = []
     for step, is_entrance, lane in sorted(events, key=lambda event: (event[:2], event[2].id)):
         if is_entrance:
             entered = {name: at for name, at in entered.items() if at == step} | {lane.id: step}
         elif entered.pop(lane.id, None) is not None:
-            counts[lane.id] += 1
+            driven.append((step, lane.id))
             entered.clear()
-    return dict(sorted(counts.items()))
+    return driven
 
 
 def _passages(vehicle: Float[np.ndarray, "T 6"], lane: Lane, *, end: int) -> list[int]:

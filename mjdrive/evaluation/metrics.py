@@ -5,13 +5,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool
 
 from mjdrive import versions
-from mjdrive.datatypes import Episode, InfractionKind, Signal, Town, TrafficLight
+from mjdrive.datatypes import Episode, InfractionKind, Signal, Town
 from mjdrive.evaluation import lane_keeping
 from mjdrive.evaluation.branches import branches_taken
 from mjdrive.evaluation.lane_keeping import LaneKeeping
+from mjdrive.evaluation.lights_met import is_before
 from mjdrive.town import signals
 from mjdrive.vehicle import cars
 
@@ -20,9 +21,6 @@ RED_LIGHT_FACTOR = 0.7
 
 STANDSTILL_SPEED = 0.1
 """Below this the car stands [m/s] (Leaderboard 1.0)."""
-
-WAITING_DISTANCE = 12.0
-"""A car whose rear axle is this near before the stop line waits for the light [m]: 4 m of car, 8 m of caution."""
 
 CONTROL_INTERVAL = 0.1
 """Length of a drive of one step [s]; longer drives say it themselves."""
@@ -134,25 +132,10 @@ def waits_at_light(episode: Episode, town: Town) -> Bool[np.ndarray, " T"]:
     """Whether the car is close before a light that is red or yellow, step by step."""
     waits = np.zeros(len(episode.time), dtype=bool)
     for light in town.lights.values():
-        near = np.flatnonzero(_is_before(episode.vehicle, light))
+        near = np.flatnonzero(is_before(episode.vehicle, light))
         shown = [signals.at(light, float(episode.time[t]) + episode.light_phase) for t in near]
         waits[near] |= np.array(shown, dtype=int) != Signal.GREEN
     return waits
-
-
-def _is_before(vehicle: Float[np.ndarray, "T 6"], light: TrafficLight) -> Bool[np.ndarray, " T"]:
-    """Whether the rear axle is within `WAITING_DISTANCE` before the stop line, in its lane and direction."""
-    forward = np.array([np.cos(light.yaw), np.sin(light.yaw)])
-    left = np.array([-forward[1], forward[0]])
-    relative = vehicle[:, :2] - light.stop_line.mean(axis=0)
-    half_width = 0.5 * np.hypot(*(light.stop_line[0] - light.stop_line[1]))
-    ahead = -relative @ forward
-    return (
-        (ahead > 0)
-        & (ahead < WAITING_DISTANCE)
-        & (np.abs(relative @ left) < half_width)
-        & (np.cos(vehicle[:, 2] - light.yaw) > 0.5)
-    )
 
 
 def _rounded(value: float) -> float:

@@ -7,7 +7,7 @@ import numpy as np
 from mjdrive.datatypes import Route, Town
 from mjdrive.geometry import curvatures, headings, stations
 from mjdrive.town.lane_graph import onward
-from mjdrive.town.random_lanes import random_lanes
+from mjdrive.town.random_lanes import Choose, random_lanes
 from mjdrive.town.route_line import POINT_SPACING
 
 AHEAD = 150.0
@@ -33,6 +33,7 @@ class RandomWalk:
         station: Where on it to start [m].
         rng: Source of the choices.
         length: How far it must lead at least where no way leads on for ever [m]; no less than two points are apart.
+        choose: Chooses among the ways on instead of chance.
 
     Attributes:
         route: The window now; its first station is that of its first point along the walk.
@@ -50,11 +51,14 @@ class RandomWalk:
         station: float,
         rng: np.random.Generator,
         length: float = 2 * POINT_SPACING,
+        choose: Choose | None = None,
     ) -> None:
         self._town = town
         if math.isinf(onward(town).get(lane, 0.0)):
             length = math.inf  # the same walk whatever is asked of it
-        self._coming = random_lanes(town, lane=lane, station=station, length=length, rng=rng)
+        self._coming = random_lanes(
+            town, lane=lane, station=station, length=length, rng=rng, choose=choose
+        )
         line = town.lanes[next(self._coming)].centerline
         along = stations(line)
         start = np.array([np.interp(station, along, line[:, axis]) for axis in (0, 1)])
