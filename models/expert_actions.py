@@ -1,10 +1,11 @@
-"""The expert's actions, kept inside a network so that its checkpoint can start a search from them."""
+"""The expert's actions, kept inside a network so that its checkpoint can start a search from them and undo what they tilted."""
 
 import torch
 from jaxtyping import Float
 from torch import Tensor, nn
 
-from models.config import DfoConfig
+from models import undoing
+from models.config import LearnerConfig, Start
 from models.interfaces import ACTION_SIZE
 from models.negatives import uniform_actions
 from models.samplers.draws import draw_ascending, pick
@@ -17,35 +18,58 @@ class ExpertActions(nn.Module):
         super().__init__()
         self.register_buffer("actions", torch.empty(0, ACTION_SIZE))
         self.register_buffer("density", torch.empty(0))
+        # Follows from both and from the settings, so it is not saved.
+        self.register_buffer("_surface", torch.empty(0), persistent=False)
+        self._surface_of: object = None
         self.actions: Tensor
         self.density: Tensor
+        self._surface: Tensor
 
     def remember(self, actions: Float[Tensor, "D 2"], density: Float[Tensor, " D"]) -> None:
         """Keep expert actions [-] and the density at each [-]."""
         self.actions = actions.detach().clone()
         self.density = density.detach().clone()
+        self._surface_of = None
+
+    def tilt(
+        self, config: LearnerConfig, actions: Float[Tensor, "A N 2"]
+    ) -> Float[Tensor, "3 A N"]:
+        """What `sampler.undo` adds to the log density of actions, and its slopes.
+
+        Args:
+            config: Settings of the learner, whose `sampler.undo` is not "none".
+            actions: Actions in [-1, 1] [-].
+
+        Returns:
+            The addition and its slopes along acceleration and steering [nats].
+        """
+        key = config.sampler.undo, config.negatives, config.density
+        if self._surface_of != key:
+            assert len(self.actions) > 0, "prepare() has not been called"
+            self._surface = undoing.surface(config, self.actions, self.density)
+            self._surface_of = key
+        return undoing.read(self._surface, actions)
 
     def draw(
-        self, num_observations: int, config: DfoConfig, *, generator: torch.Generator
+        self, num_observations: int, count: int, start: Start, *, generator: torch.Generator
     ) -> Float[Tensor, "B N 2"]:
         """First candidates of a search.
 
         Args:
             num_observations: How many observations need candidates.
-            config: Number of candidates, and how expert actions are weighted.
+            count: Candidates of each.
+            start: How expert actions are weighted, or "uniform" for none of them.
             generator: Source of chance, on the device of the actions.
 
         Returns:
             One independent set an observation, in the order of the expert actions [-].
         """
-        if config.start == "uniform":
-            return uniform_actions(num_observations, config.num_samples, generator=generator)
+        if start == "uniform":
+            return uniform_actions(num_observations, count, generator=generator)
         assert len(self.actions) > 0, "prepare() has not been called"
         # The text of the paper weighs by 1 / KDE, its Algorithm 1 by KDE.
-        weights = self.density if config.start == "kde" else self.density.reciprocal()
-        drawn = draw_ascending(
-            weights.expand(num_observations, -1), config.num_samples, generator=generator
-        )
+        weights = self.density if start == "kde" else self.density.reciprocal()
+        drawn = draw_ascending(weights.expand(num_observations, -1), count, generator=generator)
         return pick(self.actions.expand(num_observations, -1, -1), drawn)
 
     def _load_from_state_dict(
@@ -56,4 +80,5 @@ class ExpertActions(nn.Module):
             saved = state_dict.get(prefix + name)
             if saved is not None:
                 setattr(self, name, torch.empty_like(saved, device=getattr(self, name).device))
+        self._surface_of = None
         super()._load_from_state_dict(state_dict, prefix, *args)

@@ -9,10 +9,13 @@ from models.contrast import contrastive_loss
 from models.encoder import Encoder, draw_dropout, drop_previous_action
 from models.energy import EnergyHead
 from models.energy_scoring import EnergyScorer
+from models.energy_slopes import EnergySlopes
 from models.expert_actions import ExpertActions
 from models.interfaces import Batch, Chance, Learner
 from models.negatives import uniform_actions
-from models.samplers import dfo, grid
+from models.samplers import dfo, grid, langevin
+from models.samplers.dfo import EnergyFunction
+from models.samplers.langevin import SlopeFunction
 from models.threads import one_thread
 
 
@@ -97,14 +100,30 @@ class IbcLearner(Learner):
         """
         return EnergyScorer(self.energy, self.encoder(bev, state), "float32")(actions)
 
+    @torch.no_grad()
     def log_density(
         self,
         bev: UInt8[Tensor, "B C H W"],
         state: Float[Tensor, "B 3"],
         actions: Float[Tensor, "A N 2"],
     ) -> Float[Tensor, "B N"]:
-        """What the energy says of actions, up to a constant of each observation [nats]."""
-        return -self.energies(bev, state, actions)
+        """What the energy says of actions, less what `sampler.undo` takes out [nats]."""
+        scorer = EnergyScorer(self.energy, self.encoder(bev, state), "float32")
+        return -self._undone(scorer)(actions)
+
+    def _undone(self, energy: EnergyFunction) -> EnergyFunction:
+        """The energy that acting goes by: without what the settings take out of it."""
+        if self.config.sampler.undo == "none":
+            return energy
+        return lambda actions: energy(actions) - self.experts.tilt(self.config, actions)[0]
+
+    def _undone_slopes(self, slopes: SlopeFunction) -> SlopeFunction:
+        """Slopes of the energy that acting goes by."""
+        if self.config.sampler.undo == "none":
+            return slopes
+        return lambda actions: (
+            slopes(actions) - self.experts.tilt(self.config, actions)[1:].movedim(0, -1)
+        )
 
     @torch.no_grad()
     def act(
@@ -118,10 +137,18 @@ class IbcLearner(Learner):
         settings = self.config.sampler
         with one_thread() as num_threads:
             features = self.encoder(bev, state)
-            energy = EnergyScorer(
-                self.energy, features, settings.precision, num_threads=num_threads
+            energy = self._undone(
+                EnergyScorer(self.energy, features, settings.precision, num_threads=num_threads)
             )
             if settings.kind == "grid":
                 return grid.choose(energy, settings.grid, generator=generator)
-            start = self.experts.draw(len(bev), settings.dfo, generator=generator)
-            return dfo.search(energy, start, settings.dfo, generator=generator).actions
+            if settings.kind == "dfo":
+                search = settings.dfo
+                start = self.experts.draw(
+                    len(bev), search.num_samples, search.start, generator=generator
+                )
+                return dfo.search(energy, start, search, generator=generator).actions
+            slopes = self._undone_slopes(EnergySlopes(self.energy, features, settings.precision))
+            walks = settings.langevin
+            start = self.experts.draw(len(bev), walks.num_chains, walks.start, generator=generator)
+            return langevin.search(energy, slopes, start, walks, generator=generator)

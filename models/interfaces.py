@@ -43,12 +43,14 @@ class Chance(NamedTuple):
         keeps_previous: Whether each observation keeps its previous action, shape (B, 1).
         label_noise: Added to each action, shape (B, 2) [-].
         negatives: Actions to tell each expert action apart from, shape (B, N, 2) [-].
+        chain_noise: Standard normal numbers for the S steps of chains that make negatives, shape (B, S, N, 2) [-].
         pool: Expert actions that the negatives were made from, for all observations alike, shape (P, 2) [-].
     """
 
     keeps_previous: Tensor | None = None
     label_noise: Tensor | None = None
     negatives: Tensor | None = None
+    chain_noise: Tensor | None = None
     pool: Tensor | None = None
 
     def part(self, rows: slice) -> "Chance":
@@ -58,7 +60,11 @@ class Chance(NamedTuple):
             return None if tensor is None else tensor[rows]
 
         return Chance(
-            own(self.keeps_previous), own(self.label_noise), own(self.negatives), self.pool
+            keeps_previous=own(self.keeps_previous),
+            label_noise=own(self.label_noise),
+            negatives=own(self.negatives),
+            chain_noise=own(self.chain_noise),
+            pool=self.pool,
         )
 
 

@@ -6,6 +6,7 @@ from models.bc_beta import BcBetaLearner
 from models.config import LearnerConfig
 from models.da_ibc import DaIbcLearner
 from models.ibc import IbcLearner
+from models.ibc_langevin import LangevinIbcLearner
 from models.interfaces import Learner
 
 
@@ -23,6 +24,7 @@ def build_learner(config: LearnerConfig, *, seed: int) -> Learner:
         "bc-beta": BcBetaLearner,
         "ibc": IbcLearner,
         "da-ibc": DaIbcLearner,
+        "ibc-langevin": LangevinIbcLearner,
     }
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(seed)

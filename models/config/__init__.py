@@ -2,20 +2,24 @@
 
 from models.config.explicit import BetaConfig
 from models.config.implicit import DensityConfig, DensityKind, NegativesConfig
+from models.config.langevin import ChainConfig, LangevinConfig, LangevinNegativesConfig, Start
 from models.config.learner import METHODS, LearnerConfig, Method
 from models.config.network import STATE_INPUTS, NetworkConfig, StateInput
 from models.config.optimiser import OptimiserConfig
-from models.config.samplers import Choice, DfoConfig, GridConfig, Precision, SamplerConfig
+from models.config.samplers import Choice, DfoConfig, GridConfig, Precision, SamplerConfig, Undo
 
 __all__ = [
     "METHODS",
     "STATE_INPUTS",
     "BetaConfig",
+    "ChainConfig",
     "Choice",
     "DensityConfig",
     "DensityKind",
     "DfoConfig",
     "GridConfig",
+    "LangevinConfig",
+    "LangevinNegativesConfig",
     "LearnerConfig",
     "Method",
     "NegativesConfig",
@@ -23,5 +27,7 @@ __all__ = [
     "OptimiserConfig",
     "Precision",
     "SamplerConfig",
+    "Start",
     "StateInput",
+    "Undo",
 ]

@@ -10,7 +10,9 @@ DensityKind = Literal["joint", "product"]
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class NegativesConfig:
-    """Negatives of IBC (uniform) and DA-IBC (disturbed expert actions); all but `count` is for DA-IBC alone.
+    """Negatives of IBC (uniform), DA-IBC (disturbed expert actions) and Langevin IBC (ends of chains).
+
+    All but `count` and `uniform_share` is for DA-IBC alone, and IBC has no use for the share either.
 
     Attributes:
         count: Negatives of each training pair.

@@ -4,9 +4,11 @@ import dataclasses
 from typing import Literal
 
 from models.config.checks import require, require_not_negative, require_positive
+from models.config.langevin import LangevinConfig, Start
 
 Choice = Literal["sample", "argmin"]
 Precision = Literal["auto", "float32", "bfloat16"]
+Undo = Literal["none", "negatives", "density", "both"]
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -28,7 +30,7 @@ class DfoConfig:
     iterations: int = 5
     sigma_init: float = 0.5
     shrink: float = 0.5
-    start: Literal["inverse_kde", "kde", "uniform"] = "inverse_kde"
+    start: Start = "inverse_kde"
     choice: Choice = "sample"
     temper: bool = False
     bound: float = 1.0
@@ -61,16 +63,20 @@ class GridConfig:
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class SamplerConfig:
-    """How IBC and DA-IBC find an action of low energy; without effect on BC-Beta.
+    """How energy models find an action of low energy; explicit policies look at `undo` and, where it is set, at `grid`.
 
     Attributes:
-        kind: Which sampler; the settings of the other lie idle.
+        kind: Which sampler; the settings of the others lie idle.
         dfo: Derivative-free search.
         grid: Exact choice on a grid.
+        langevin: Chains that walk down the energy.
+        undo: What training tilted and acting takes out again: the density of the "negatives", that of 1 / KDE weights ("density"), or "both".
         precision: Number format of the hidden layers that score candidates; "auto" takes bfloat16 where the machine is fast at it, and float32 elsewhere.
     """
 
-    kind: Literal["dfo", "grid"] = "dfo"
+    kind: Literal["dfo", "grid", "langevin"] = "dfo"
     dfo: DfoConfig = DfoConfig()
     grid: GridConfig = GridConfig()
+    langevin: LangevinConfig = dataclasses.field(default_factory=LangevinConfig)
+    undo: Undo = "none"
     precision: Precision = "auto"

@@ -1,7 +1,6 @@
 import pytest
 import torch
 
-from models.config import DfoConfig
 from models.expert_actions import ExpertActions
 
 
@@ -16,16 +15,14 @@ def experts():
 def test_a_search_starts_from_expert_actions_by_their_density(
     start, share_rare, experts, generator
 ):
-    drawn = experts.draw(3, DfoConfig(num_samples=4000, start=start), generator=generator)
+    drawn = experts.draw(3, 4000, start, generator=generator)
     assert drawn.shape == (3, 4000, 2)
     is_rare = (drawn == torch.tensor([0.5, 0.5])).all(dim=-1)
     assert is_rare.float().mean(dim=1).tolist() == pytest.approx([share_rare] * 3, abs=0.03)
 
 
 def test_a_uniform_start_needs_no_expert(generator):
-    drawn = ExpertActions().draw(
-        1, DfoConfig(num_samples=5000, start="uniform"), generator=generator
-    )
+    drawn = ExpertActions().draw(1, 5000, "uniform", generator=generator)
     assert drawn.mean().item() == pytest.approx(0, abs=0.03)
 
 
