@@ -1,7 +1,7 @@
 """How much of a town a drive saw, and how soon: directed lanes visited over distance driven."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,6 +48,34 @@ def reachable_lanes(town: Town) -> tuple[str, ...]:
     return tuple(name for name in streets if math.isinf(ahead[name])) or tuple(streets)
 
 
+def first_visits(episode: Episode, lanes: LaneTrack, town: Town) -> dict[str, float]:
+    """Tell after which distance a drive first came along each directed lane outside junctions.
+
+    Args:
+        episode: The drive.
+        lanes: Where it was on the lanes.
+        town: Where.
+
+    Returns:
+        Distance by the name of the lane, rising [m]; lanes not visited are left out.
+    """
+    wanted = set(reachable_lanes(town))
+    along = distance_along(episode)
+    visited: dict[str, float] = {}
+    for step in np.flatnonzero(episode.on_lane & (np.abs(lanes.heading_error) < WRONG_WAY)):
+        name = lanes.lane[step]
+        if name in wanted:
+            wanted.remove(name)
+            visited[name] = float(along[step])
+    return visited
+
+
+def distance_along(episode: Episode) -> Float[np.ndarray, " T"]:
+    """Path length on driving lanes up to each step [m]."""
+    steps = np.hypot(*np.diff(episode.vehicle[:, :2], axis=0, prepend=episode.vehicle[:1, :2]).T)
+    return np.asarray(np.cumsum(np.where(episode.on_lane, steps, 0.0)))
+
+
 def coverage(drives: Sequence[tuple[Episode, LaneTrack]], town: Town) -> Coverage:
     """Follow what several drives of one policy visited, one after the other.
 
@@ -55,24 +83,32 @@ def coverage(drives: Sequence[tuple[Episode, LaneTrack]], town: Town) -> Coverag
         drives: Each drive, and where it was on the lanes.
         town: Where.
     """
-    wanted = reachable_lanes(town)
-    missing = set(wanted)
+    visits = [first_visits(episode, lanes, town) for episode, lanes in drives]
+    lengths = [float(distance_along(episode)[-1]) for episode, _ in drives]
+    return joined_coverage(visits, lengths, num_lanes=len(reachable_lanes(town)))
+
+
+def joined_coverage(
+    visits: Sequence[Mapping[str, float]], lengths: Sequence[float], *, num_lanes: int
+) -> Coverage:
+    """Join what several drives of one policy visited, one after the other.
+
+    Args:
+        visits: Of each drive, what `first_visits` tells.
+        lengths: Distance of each drive [m].
+        num_lanes: Directed lanes of the town that can be driven on without end [-].
+    """
+    seen: set[str] = set()
     distances, total = [0.0], 0.0
-    for episode, lanes in drives:
-        steps = np.hypot(
-            *np.diff(episode.vehicle[:, :2], axis=0, prepend=episode.vehicle[:1, :2]).T
-        )
-        along = total + np.cumsum(np.where(episode.on_lane, steps, 0.0))
-        runs_with = episode.on_lane & (np.abs(lanes.heading_error) < WRONG_WAY)
-        for step in np.flatnonzero(runs_with):
-            name = lanes.lane[step]
-            if name in missing:
-                missing.remove(name)
-                distances.append(float(along[step]))
-        total = float(along[-1])
-    shares = np.arange(len(distances)) / len(wanted)
+    for visited, length in zip(visits, lengths, strict=True):
+        for name, distance in sorted(visited.items(), key=lambda visit: visit[1]):
+            if name not in seen:
+                seen.add(name)
+                distances.append(total + distance)
+        total += length
+    shares = np.arange(len(distances)) / num_lanes
     return Coverage(
         distance_km=np.array([*distances, total]) / 1000.0,
         share=np.append(shares, shares[-1]),
-        lanes=len(wanted),
+        lanes=num_lanes,
     )
