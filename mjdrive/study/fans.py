@@ -59,6 +59,7 @@ def live(
     seed: int,
     num_rollouts: int = 50,
     on_rollout: Callable[[int], None] = lambda done: None,
+    on_drive: Callable[[Episode, bool], None] = lambda drive, is_safe: None,
 ) -> tuple[ForkOutcome, FanRecord]:
     """Live one moment many times, and keep the ways that the car took.
 
@@ -71,6 +72,7 @@ def live(
         seed: Decides the policy's own chance in each rollout.
         num_rollouts: How often [-].
         on_rollout: Told the number of rollouts done.
+        on_drive: Given each drive, and whether it was a safe one.
 
     Returns:
         What `mjdrive.evaluation.forking.outcome` counts, and the paths.
@@ -82,6 +84,7 @@ def live(
         paths.append(
             FanPath(exit=min(taken, default=""), is_safe=is_safe, points=thinned_path(drive))
         )
+        on_drive(drive, is_safe)
 
     outcome = forking.outcome(
         simulation,
