@@ -36,10 +36,10 @@ def draw_trajectory(episode: Episode, town: Town, path: Path) -> None:
         path: PNG file to write.
     """
     with matplotlib.style.context(["default", STYLE]):
-        width, height = _extent(town)
+        width, height = map_extent(town)
         figure = Figure(figsize=(7.5, 6.2 * height / width + 0.9), layout="constrained")
         axes = figure.add_subplot()
-        _draw_town(axes, town)
+        draw_town(axes, town)
         line = _draw_path(axes, episode, line_width=2.2)
         _draw_ends(axes, episode)
         _draw_infractions(axes, episode, town)
@@ -59,7 +59,7 @@ def draw_dataset(episodes: Mapping[str, Episode], town: Town, path: Path) -> Non
         path: PNG file to write.
     """
     with matplotlib.style.context(["default", STYLE]):
-        width, height = _extent(town)
+        width, height = map_extent(town)
         drawn = list(episodes.items())[:MOST_MAPS]
         num_columns = min(len(drawn), 5)
         num_rows = math.ceil(len(drawn) / num_columns)
@@ -71,7 +71,7 @@ def draw_dataset(episodes: Mapping[str, Episode], town: Town, path: Path) -> Non
         for axes in grid.flat:
             axes.set_axis_off()
         for axes, (name, episode) in zip(grid.flat, drawn, strict=False):
-            _draw_town(axes, town)
+            draw_town(axes, town)
             _draw_path(axes, episode, line_width=1.4)
             _draw_ends(axes, episode)
             _draw_infractions(axes, episode, town, size=25.0, spacing=SMALL_SPACING)
@@ -79,15 +79,15 @@ def draw_dataset(episodes: Mapping[str, Episode], town: Town, path: Path) -> Non
         save(figure, path)
 
 
-def _extent(town: Town) -> tuple[float, float]:
-    """Width and height of the ground that is shown [m]."""
+def map_extent(town: Town) -> tuple[float, float]:
+    """Width and height of the ground that a map of a town shows [m]."""
     return (
         float(town.bounds[2] - town.bounds[0]) + 2 * MARGIN,
         float(town.bounds[3] - town.bounds[1]) + 2 * MARGIN,
     )
 
 
-def _draw_town(axes: Axes, town: Town) -> None:
+def draw_town(axes: Axes, town: Town) -> None:
     """Draw lanes and stop lines on equal axes."""
     lanes = [np.asarray(polygon.exterior.coords) for polygon in lane_polygons(town).values()]
     # The outline closes the hairline gaps between neighbouring lanes.
@@ -138,7 +138,7 @@ def _draw_infractions(
     axes: Axes, episode: Episode, town: Town, *, size: float = 90.0, spacing: float = SYMBOL_SPACING
 ) -> None:
     """Mark each infraction with the symbol of its kind; the legend counts them."""
-    gap = spacing * max(_extent(town))
+    gap = spacing * max(map_extent(town))
     drawn: list[tuple[float, float]] = []
     for kind, (label, marker, color) in SYMBOLS.items():
         places = [(it.x, it.y) for it in episode.infractions if it.kind == kind]
