@@ -10,6 +10,17 @@ from models import presets, serialization
 from models.config import LearnerConfig
 from models.errors import SettingError
 
+ACTING = (
+    "sampler.",
+    "beta.inference",
+    "categorical.choice",
+    "categorical.temperature",
+    "diffusion.sampler",
+    "diffusion.steps",
+    "flow.",
+)
+"""How the names of settings begin that a trained policy can change."""
+
 
 def learner_settings(
     method: str, *, preset: str = "standard", assignments: Iterable[str] = ()
@@ -30,12 +41,53 @@ def learner_settings(
     """
     try:
         config = presets.preset(preset, method)
-        values = json.loads(serialization.to_json(config))
+    except SettingError as error:
+        raise ConfigError(str(error)) from error
+    return changed(config, assignments)
+
+
+def changed(config: LearnerConfig, assignments: Iterable[str]) -> LearnerConfig:
+    """Change some settings.
+
+    Args:
+        config: Settings to begin with.
+        assignments: Changes, each as "optimiser.learning_rate=1e-4".
+
+    Returns:
+        The checked settings.
+
+    Raises:
+        ConfigError: If a value is not one of those expected.
+        UnknownNameError: If there is no such setting.
+    """
+    values = json.loads(serialization.to_json(config))
+    try:
         for assignment in assignments:
             _assign(values, assignment)
         return serialization.from_json(json.dumps(values))
     except SettingError as error:
         raise ConfigError(str(error)) from error
+
+
+def acting_changed(config: LearnerConfig, assignments: Iterable[str]) -> LearnerConfig:
+    """Let a trained policy choose its actions in another way; what it has learnt stays.
+
+    Args:
+        config: Settings that the policy was trained with.
+        assignments: Changes, each as "sampler.kind=grid".
+
+    Raises:
+        ConfigError: If a setting decides what is learnt, or a value is not one of those expected.
+        UnknownNameError: If there is no such setting.
+    """
+    assignments = tuple(assignments)
+    learnt = [it for it in assignments if not it.startswith(ACTING)]
+    if learnt:
+        raise ConfigError(
+            f"'{learnt[0]}' decides what is learnt, not how a trained policy acts. Expected settings that begin with "
+            f"{', '.join(ACTING)}; train another policy with it."
+        )
+    return changed(config, assignments)
 
 
 def acting_settings(config: LearnerConfig, *, preset: str) -> LearnerConfig:
