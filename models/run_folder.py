@@ -68,10 +68,10 @@ def take_up(
     if (trained := checkpoint.load_state(folder).seed) != seed:
         raise CheckpointError(f"'{folder}' was trained with seed {trained}, not {seed}.")
     state.restore(tensors)
-    return _read_history(folder / checkpoint.METRICS, epoch)
+    return read_history(folder / checkpoint.METRICS, epoch)
 
 
-def _read_history(path: Path, epoch: int) -> list[EpochReport]:
+def read_history(path: Path, epoch: int) -> list[EpochReport]:
     """Read the reports of the complete epochs of a run."""
     try:
         history = from_lines(path.read_text())[:epoch]

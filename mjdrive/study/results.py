@@ -9,7 +9,7 @@ turns/<arm>-<seed>-<exit>.hdf5        one drive through each exit of one junctio
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from mjdrive.config import StudyConfig
 from mjdrive.evaluation.choices import ChoiceStatistics
@@ -33,16 +33,16 @@ class StudyRecord:
         versions: Versions of the software.
         towns: Digest of each town that is driven in, by name.
         car: Digest of the car that drives.
-        data: Folder of demonstrations that were there before, as given; empty where the study collects its own.
-        runs: Folder of trained runs that were there before, as given; empty where the study trains its own.
+        data: Digest of the manifest of each data set that was there before, by name; the study collects the others.
+        runs: Digest of the weights of each agent that was trained before, by name; the study trains the others.
     """
 
     settings: StudyConfig
     versions: Mapping[str, str]
     towns: Mapping[str, str]
     car: str
-    data: str = ""
-    runs: str = ""
+    data: Mapping[str, str] = field(default_factory=dict)
+    runs: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,106 @@
+"""Who learns and who drives in a study: agents, and agents in their ways to act."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from mjdrive.config import Arm, StudyConfig, Variant
+from mjdrive.errors import ConfigError
+from mjdrive.learning.settings import acting_changed, learner_settings
+from models.config import LearnerConfig
+
+
+@dataclass(frozen=True, slots=True)
+class Agent:
+    """A variant with a training seed: what is trained once.
+
+    Attributes:
+        variant: Its method and settings.
+        seed: Training seed [-].
+    """
+
+    variant: Variant
+    seed: int
+
+    @property
+    def name(self) -> str:
+        """Of its folder."""
+        return f"{self.variant.name}-{self.seed}"
+
+
+@dataclass(frozen=True, slots=True)
+class ArmAgent:
+    """An agent in one way to act.
+
+    Attributes:
+        arm: How it acts.
+        agent: What it has learnt.
+        is_main: Whether this is the main arm of its variant.
+    """
+
+    arm: Arm
+    agent: Agent
+    is_main: bool
+
+    @property
+    def name(self) -> str:
+        """Of its files."""
+        return f"{self.arm.name}-{self.agent.seed}"
+
+
+def agents(config: StudyConfig) -> tuple[Agent, ...]:
+    """What a study trains: by variant, then by seed."""
+    return tuple(
+        Agent(variant, seed)
+        for variant in config.variants
+        for seed in (config.ablation_seeds if variant.change else config.seeds)
+    )
+
+
+def arm_agents(config: StudyConfig) -> tuple[ArmAgent, ...]:
+    """What drives in a study: by arm, then by seed; ablations of acting alone take agents with the seeds of ablations."""
+    trained = agents(config)
+    main = {arm.variant: arm.name for arm in reversed(config.arms)}
+    return tuple(
+        ArmAgent(arm, agent, is_main=main[arm.variant] == arm.name)
+        for arm in config.arms
+        for agent in trained
+        if agent.variant.name == arm.variant
+        and (not arm.change or agent.seed in config.ablation_seeds)
+    )
+
+
+def main_arm(config: StudyConfig, variant: str) -> Arm:
+    """The first arm of a variant."""
+    return next(arm for arm in config.arms if arm.variant == variant)
+
+
+def learner_config(variant: Variant) -> LearnerConfig:
+    """Settings that a variant is trained with.
+
+    Raises:
+        ConfigError: If one has no meaning.
+        UnknownNameError: If there is no such method, preset or setting.
+    """
+    return learner_settings(variant.method, preset=variant.preset, assignments=variant.assignments)
+
+
+def require_buildable(config: StudyConfig) -> None:
+    """Refuse a study with settings that no learner has, before anything runs.
+
+    Raises:
+        ConfigError: If a setting has no meaning; it names the variant or the arm.
+        UnknownNameError: If there is no such method, preset or setting.
+    """
+    learnt = {variant.name: learner_config(variant) for variant in config.variants}
+    for arm in config.arms:
+        try:
+            acting_changed(learnt[arm.variant], arm.acting)
+        except ConfigError as error:
+            raise ConfigError(f"The arm {arm.name} of the study cannot act: {error}") from error
+
+
+def seeds_with_details(config: StudyConfig) -> Iterator[ArmAgent]:
+    """The main arms whose long drive, landscapes and turns are kept for pictures; ablations have none."""
+    for it in arm_agents(config):
+        if it.is_main and not it.agent.variant.change and it.agent.seed in config.detail_seeds:
+            yield it
