@@ -8,46 +8,18 @@ from torch import Tensor, nn
 from torch.distributions import Beta
 from torch.nn import functional as F  # noqa: N812
 
+from models.beta_density import (
+    SMALLEST_CONCENTRATION,
+    beta_mode,
+    draw_beta,
+    draw_label_noise,
+    noisy_units,
+    unit_from_action,
+)
 from models.config import LearnerConfig
-from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_action
+from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_action, policy_head
 from models.interfaces import ACTION_SIZE, Batch, Chance, Learner, weighted_mean
 from models.threads import one_thread
-
-# Softplus underflows to zero, where the Beta density does not exist.
-SMALLEST_CONCENTRATION = 1e-6
-
-
-def unit_from_action(
-    actions: Float[Tensor, "*B 2"], *, label_clamp: float
-) -> Float[Tensor, "*B 2"]:
-    """Bring actions from [-1, 1] into the open unit interval, where a Beta density is finite.
-
-    Args:
-        actions: Acceleration and steering in [-1, 1] [-].
-        label_clamp: Smallest distance that is kept from 0 and 1 [-].
-
-    Returns:
-        The actions in [label_clamp, 1 - label_clamp] [-].
-    """
-    return ((actions + 1) / 2).clamp(label_clamp, 1 - label_clamp)
-
-
-def beta_mode(alpha: Float[Tensor, "B 2"], beta: Float[Tensor, "B 2"]) -> Float[Tensor, "B 2"]:
-    """Where a Beta density is highest; its mean where it has two peaks or none.
-
-    Args:
-        alpha: First concentration [-].
-        beta: Second concentration [-].
-
-    Returns:
-        A point in [0, 1] [-].
-    """
-    peaked = (alpha > 1) & (beta > 1)
-    inner = (alpha - 1) / torch.where(peaked, alpha + beta - 2, 1.0)
-    at_zero = (alpha <= 1) & (beta > 1)
-    at_one = (alpha > 1) & (beta <= 1)
-    edge_or_mean = torch.where(at_zero, 0.0, torch.where(at_one, 1.0, alpha / (alpha + beta)))
-    return torch.where(peaked, inner, edge_or_mean)
 
 
 class BcBetaLearner(Learner):
@@ -57,12 +29,7 @@ class BcBetaLearner(Learner):
         super().__init__()
         self.config = config
         self.encoder = Encoder(config.network)
-        self.head = nn.Sequential(
-            nn.Linear(self.encoder.feature_size, HIDDEN_SIZE),
-            nn.ReLU(),
-            nn.Linear(HIDDEN_SIZE, HIDDEN_SIZE),
-            nn.ReLU(),
-        )
+        self.head = policy_head(self.encoder.feature_size)
         self.alpha = nn.Linear(HIDDEN_SIZE, ACTION_SIZE)
         self.beta = nn.Linear(HIDDEN_SIZE, ACTION_SIZE)
 
@@ -81,10 +48,8 @@ class BcBetaLearner(Learner):
         """Draw dropout, and noise on the labels where the settings ask for it."""
         probability = self.config.network.state_dropout
         kept = draw_dropout(len(actions), probability, generator=generator)
-        if self.config.beta.label_noise == 0:
-            return Chance(keeps_previous=kept)
-        noise = torch.randn(actions.shape, generator=generator, device=actions.device)
-        return Chance(keeps_previous=kept, label_noise=self.config.beta.label_noise * noise)
+        noise = draw_label_noise(actions, self.config.beta.label_noise, generator=generator)
+        return Chance(keeps_previous=kept, label_noise=noise)
 
     def loss(
         self, batch: Batch, chance: Chance, *, weights: Float[Tensor, " B"] | None
@@ -93,10 +58,7 @@ class BcBetaLearner(Learner):
         settings = self.config.beta
         state = drop_previous_action(batch.state, chance.keeps_previous)
         distribution = self.distribution(batch.bev, state)
-        actions = batch.actions
-        if chance.label_noise is not None:
-            actions = actions + chance.label_noise
-        labels = unit_from_action(actions, label_clamp=settings.label_clamp)
+        labels = noisy_units(batch.actions, chance.label_noise, label_clamp=settings.label_clamp)
         losses = -distribution.log_prob(labels).sum(dim=1)  # (B,)
         if settings.entropy_bonus > 0:
             losses = losses - settings.entropy_bonus * distribution.entropy().sum(dim=1)
@@ -113,12 +75,13 @@ class BcBetaLearner(Learner):
         """Mode, mean or a sample of the distribution, as the settings say."""
         with one_thread():
             distribution = self.distribution(bev, state)
+        alpha, beta = distribution.concentration1, distribution.concentration0
         if self.config.beta.inference == "mode":
-            unit = beta_mode(distribution.concentration1, distribution.concentration0)
+            unit = beta_mode(alpha, beta)
         elif self.config.beta.inference == "mean":
             unit = distribution.mean
         else:
-            unit = _sample(distribution, generator)
+            unit = draw_beta(alpha, beta, generator=generator)
         return 2 * unit - 1
 
     @torch.no_grad()
@@ -135,12 +98,3 @@ class BcBetaLearner(Learner):
         unit = unit_from_action(actions, label_clamp=self.config.beta.label_clamp)
         log_unit = Beta(alpha, beta, validate_args=False).log_prob(unit).sum(dim=-1)  # (B, N)
         return log_unit - ACTION_SIZE * math.log(2)  # an action is twice as wide as its unit
-
-
-def _sample(distribution: Beta, generator: torch.Generator) -> Tensor:
-    """Draw from a distribution with a generator, which torch.distributions does not take."""
-    device = generator.device
-    seed = int(torch.randint(2**62, (), generator=generator, device=device))
-    with torch.random.fork_rng(devices=[device] if device.type == "cuda" else []):
-        torch.manual_seed(seed)
-        return distribution.sample()

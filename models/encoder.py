@@ -80,6 +80,16 @@ def _blocks(x: Float[Tensor, "B C H W"]) -> Float[Tensor, "B D I J"]:
     return blocks.flatten(3).permute(0, 3, 1, 2)  # (B, 4 C, H / 2, W / 2)
 
 
+def policy_head(feature_size: int) -> nn.Sequential:
+    """Two hidden layers between the features and what an explicit policy says of actions."""
+    return nn.Sequential(
+        nn.Linear(feature_size, HIDDEN_SIZE),
+        nn.ReLU(),
+        nn.Linear(HIDDEN_SIZE, HIDDEN_SIZE),
+        nn.ReLU(),
+    )
+
+
 def _convolutions() -> nn.Sequential:
     layers: list[nn.Module] = []
     channels = BEV_CHANNELS

@@ -45,6 +45,8 @@ class Chance(NamedTuple):
         negatives: Actions to tell each expert action apart from, shape (B, N, 2) [-].
         chain_noise: Standard normal numbers for the S steps of chains that make negatives, shape (B, S, N, 2) [-].
         pool: Expert actions that the negatives were made from, for all observations alike, shape (P, 2) [-].
+        noise: What an action is mixed with to be denoised, shape (B, N, 2) [-].
+        times: How far it is mixed, from 0 to 1, shape (B, N) [-].
     """
 
     keeps_previous: Tensor | None = None
@@ -52,6 +54,8 @@ class Chance(NamedTuple):
     negatives: Tensor | None = None
     chain_noise: Tensor | None = None
     pool: Tensor | None = None
+    noise: Tensor | None = None
+    times: Tensor | None = None
 
     def part(self, rows: slice) -> "Chance":
         """What of it concerns some observations."""
@@ -65,6 +69,8 @@ class Chance(NamedTuple):
             negatives=own(self.negatives),
             chain_noise=own(self.chain_noise),
             pool=self.pool,
+            noise=own(self.noise),
+            times=own(self.times),
         )
 
 

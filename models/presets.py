@@ -6,11 +6,16 @@ from collections.abc import Callable
 from models.config import (
     METHODS,
     BetaConfig,
+    CategoricalConfig,
+    DenoiserConfig,
     DensityConfig,
     DfoConfig,
+    DiffusionConfig,
+    FlowConfig,
     GridConfig,
     LearnerConfig,
     Method,
+    MixtureConfig,
     NegativesConfig,
     NetworkConfig,
     OptimiserConfig,
@@ -23,7 +28,7 @@ def quick(method: Method) -> LearnerConfig:
     """Settings that show the whole chain in minutes on two cores.
 
     Args:
-        method: "bc-beta", "ibc" or "da-ibc".
+        method: One of `METHODS`.
 
     Returns:
         `standard` with few epochs, few negatives and a coarse grid.
@@ -35,7 +40,7 @@ def standard(method: Method) -> LearnerConfig:
     """Settings that drive best within 40 minutes of training on two cores.
 
     Args:
-        method: "bc-beta", "ibc" or "da-ibc".
+        method: One of `METHODS`.
 
     Returns:
         A thirtieth of the paper's steps at thirty to eighty times its step size, blind to the previous action, with the energy
@@ -45,10 +50,21 @@ def standard(method: Method) -> LearnerConfig:
 
 
 def _effective(method: Method, *, epochs: int, negatives: int) -> LearnerConfig:
+    is_beta = method in {"bc-beta", "bc-mixture"}
     return LearnerConfig(
         method=method,
         network=NetworkConfig(state_inputs=("speed",), speed_scale=6.0, action_gain=16.0),
-        beta=BetaConfig(beta_offset=1, label_noise=0.05),
+        beta=BetaConfig(
+            beta_offset=1,
+            label_noise=0.05,
+            # One mode is the better of two sides; a mixture is there to take either.
+            inference="sample" if method == "bc-mixture" else "mode",
+        ),
+        mixture=MixtureConfig(components=5),
+        categorical=CategoricalConfig(points=65, smoothing=0.05, choice="sample"),
+        denoiser=DenoiserConfig(width=256, draws=16),
+        diffusion=DiffusionConfig(prediction="v", sampler="ddpm", steps=16),
+        flow=FlowConfig(integrator="midpoint", steps=8),
         negatives=NegativesConfig(
             count=negatives, sigma=0.2, clip=False, uniform_share=0.5, correction="ranking"
         ),
@@ -59,11 +75,11 @@ def _effective(method: Method, *, epochs: int, negatives: int) -> LearnerConfig:
             grid=GridConfig(points=65),
         ),
         optimiser=OptimiserConfig(
-            # The likelihood of a narrow density has steep gradients: at 8e-4 the encoder of BC-Beta dies.
-            learning_rate=3e-4 if method == "bc-beta" else 8e-4,
+            # The likelihood of a narrow Beta has steep gradients: at 8e-4 the encoder of BC-Beta dies.
+            learning_rate=3e-4 if is_beta else 8e-4,
             schedule="onecycle",
             epochs=epochs,
-            gradient_clip=1.0 if method == "bc-beta" else 10.0,
+            gradient_clip=1.0 if is_beta else 10.0,
         ),
     )
 
@@ -72,15 +88,24 @@ def paper(method: Method) -> LearnerConfig:
     """The numbers of the paper; where it is silent, the literal or the likelier reading.
 
     Args:
-        method: "bc-beta", "ibc" or "da-ibc".
+        method: One of `METHODS`.
 
     Returns:
-        Adam at 1e-5 for 400 epochs of minibatches of 128, 1024 negatives, search over 5 x 16384 candidates.
+        Adam at 1e-5 for 400 epochs of minibatches of 128, 1024 negatives, search over 5 x 16384 candidates. Methods that
+        the paper does not have take its optimiser, inputs and weights, and their own settings from `standard`.
     """
+    ours = standard(method)
     return LearnerConfig(
         method=method,
         network=NetworkConfig(),
-        beta=BetaConfig(beta_offset=0, label_clamp=1e-7, inference="mode"),
+        beta=ours.beta
+        if method == "bc-mixture"
+        else BetaConfig(beta_offset=0, label_clamp=1e-7, inference="mode"),
+        mixture=ours.mixture,
+        categorical=ours.categorical,
+        denoiser=ours.denoiser,
+        diffusion=ours.diffusion,
+        flow=ours.flow,
         negatives=NegativesConfig(count=1024, sigma=0.22, clip=True),
         density=DensityConfig(bandwidth=0.2, weighting="sampler"),
         sampler=SamplerConfig(
@@ -103,7 +128,7 @@ def preset(name: str, method: str) -> LearnerConfig:
 
     Args:
         name: "quick", "standard" or "paper".
-        method: "bc-beta", "ibc" or "da-ibc".
+        method: One of `METHODS`.
 
     Returns:
         The settings.

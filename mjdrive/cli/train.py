@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("method", metavar="bc-beta|ibc|da-ibc")
+@click.argument("method", metavar="METHOD")
 @click.option(
     "--preset",
     default="standard",
@@ -70,6 +70,9 @@ def train(
     device: str,
 ) -> None:
     """Train a policy on demonstrations.
+
+    METHOD is bc-beta, bc-mixture or bc-grid (explicit densities), ibc, da-ibc or ibc-langevin (energies), diffusion or
+    flow (noise turned into actions).
 
     A checkpoint is written after each epoch; an interrupted run goes on with --resume. Several processes share the
     work when torchrun starts them: torchrun --nproc-per-node 2 -m mjdrive train da-ibc

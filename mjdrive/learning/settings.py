@@ -1,6 +1,5 @@
 """Settings of training runs and of their driving, from what the command line says."""
 
-import dataclasses
 import json
 from collections.abc import Iterable
 from typing import Any
@@ -17,7 +16,10 @@ ACTING = (
     "categorical.temperature",
     "diffusion.sampler",
     "diffusion.steps",
+    "diffusion.clip",
     "flow.",
+    "denoiser.noise_floor",
+    "denoiser.density_steps",
 )
 """How the names of settings begin that a trained policy can change."""
 
@@ -28,7 +30,7 @@ def learner_settings(
     """Choose the settings of a training run.
 
     Args:
-        method: "bc-beta", "ibc" or "da-ibc".
+        method: One of `models.config.METHODS`.
         preset: "quick", "standard" or "paper".
         assignments: Changes to the preset, each as "optimiser.learning_rate=1e-4".
 
@@ -104,8 +106,16 @@ def acting_settings(config: LearnerConfig, *, preset: str) -> LearnerConfig:
         ConfigError: If there is no such preset.
     """
     other = learner_settings(config.method, preset=preset)
-    beta = dataclasses.replace(config.beta, inference=other.beta.inference)
-    return dataclasses.replace(config, sampler=other.sampler, beta=beta)
+    values = json.loads(serialization.to_json(other))
+    paths = [path for path in _leaves(values, "") if path.startswith(ACTING)]
+    return changed(config, (f"{path}={json.dumps(_at(values, path))}" for path in paths))
+
+
+def _at(values: dict[str, Any], path: str) -> Any:
+    """What nested settings hold at a dotted name."""
+    for name in path.split("."):
+        values = values[name]
+    return values
 
 
 def _assign(values: dict[str, Any], assignment: str) -> None:

@@ -1,6 +1,7 @@
 """Every setting of the learners, among them each ambiguity of the paper; presets are in `models.presets`."""
 
-from models.config.explicit import BetaConfig
+from models.config.explicit import BetaConfig, CategoricalConfig, MixtureConfig
+from models.config.generative import DenoiserConfig, DiffusionConfig, FlowConfig
 from models.config.implicit import DensityConfig, DensityKind, NegativesConfig
 from models.config.langevin import ChainConfig, LangevinConfig, LangevinNegativesConfig, Start
 from models.config.learner import METHODS, LearnerConfig, Method
@@ -12,16 +13,21 @@ __all__ = [
     "METHODS",
     "STATE_INPUTS",
     "BetaConfig",
+    "CategoricalConfig",
     "ChainConfig",
     "Choice",
+    "DenoiserConfig",
     "DensityConfig",
     "DensityKind",
     "DfoConfig",
+    "DiffusionConfig",
+    "FlowConfig",
     "GridConfig",
     "LangevinConfig",
     "LangevinNegativesConfig",
     "LearnerConfig",
     "Method",
+    "MixtureConfig",
     "NegativesConfig",
     "NetworkConfig",
     "OptimiserConfig",

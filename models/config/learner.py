@@ -4,7 +4,8 @@ import dataclasses
 from typing import Literal, get_args
 
 from models.config.checks import require
-from models.config.explicit import BetaConfig
+from models.config.explicit import BetaConfig, CategoricalConfig, MixtureConfig
+from models.config.generative import DenoiserConfig, DiffusionConfig, FlowConfig
 from models.config.implicit import DensityConfig, NegativesConfig
 from models.config.langevin import LangevinNegativesConfig
 from models.config.network import NetworkConfig
@@ -12,7 +13,9 @@ from models.config.optimiser import OptimiserConfig
 from models.config.samplers import SamplerConfig
 from models.config.undoing import require_undoable
 
-Method = Literal["bc-beta", "ibc", "da-ibc", "ibc-langevin"]
+Method = Literal[
+    "bc-beta", "bc-mixture", "bc-grid", "ibc", "da-ibc", "ibc-langevin", "diffusion", "flow"
+]
 
 METHODS: tuple[Method, ...] = get_args(Method)
 
@@ -24,7 +27,12 @@ class LearnerConfig:
     Attributes:
         method: How it learns; IBC takes uniform negatives, DA-IBC disturbed expert actions.
         network: What the encoder sees.
-        beta: Loss and inference of BC-Beta.
+        beta: Loss and inference of BC-Beta and of the BC mixture.
+        mixture: Size of the BC mixture.
+        categorical: Resolution, loss and inference of the BC grid.
+        denoiser: The network of diffusion and flow matching, and how its density is told.
+        diffusion: Loss and inference of diffusion.
+        flow: Inference of flow matching.
         negatives: Negatives of IBC and DA-IBC.
         langevin_negatives: Chains and gradient penalty of Langevin IBC.
         density: Kernel density estimate and what it weighs.
@@ -35,6 +43,11 @@ class LearnerConfig:
     method: Method
     network: NetworkConfig = dataclasses.field(default_factory=NetworkConfig)
     beta: BetaConfig = dataclasses.field(default_factory=BetaConfig)
+    mixture: MixtureConfig = dataclasses.field(default_factory=MixtureConfig)
+    categorical: CategoricalConfig = dataclasses.field(default_factory=CategoricalConfig)
+    denoiser: DenoiserConfig = dataclasses.field(default_factory=DenoiserConfig)
+    diffusion: DiffusionConfig = dataclasses.field(default_factory=DiffusionConfig)
+    flow: FlowConfig = dataclasses.field(default_factory=FlowConfig)
     negatives: NegativesConfig = dataclasses.field(default_factory=NegativesConfig)
     langevin_negatives: LangevinNegativesConfig = dataclasses.field(
         default_factory=LangevinNegativesConfig
@@ -45,6 +58,12 @@ class LearnerConfig:
 
     def __post_init__(self) -> None:
         require(self, "method", self.method in METHODS, f"one of {', '.join(METHODS)}")
+        require(
+            self.beta,
+            "entropy_bonus",
+            self.beta.entropy_bonus == 0 or self.method != "bc-mixture",
+            "0 for bc-mixture, as the entropy of a mixture has no closed form",
+        )
         require_undoable(
             self.sampler.undo, method=self.method, negatives=self.negatives, density=self.density
         )

@@ -6,7 +6,7 @@ import torch
 from torch import nn
 from torch.distributions import Beta
 
-from models.bc_beta import BcBetaLearner, beta_mode, unit_from_action
+from models.bc_beta import BcBetaLearner
 from models.interfaces import Batch
 
 
@@ -85,28 +85,6 @@ def test_weights_multiply_the_losses(constant_learner, generator):
     single = [loss_of(learner, Batch(*(x[[i]] for x in batch)), generator) for i in range(2)]
     weighted = loss_of(learner, batch, generator, weights=torch.tensor([3.0, 1.0]))
     torch.testing.assert_close(weighted, (3 * single[0] + single[1]) / 2)
-
-
-def test_the_mode_is_where_the_density_is_highest():
-    alpha, beta = torch.tensor([[3.0, 5.0]]), torch.tensor([[2.0, 9.0]])
-    grid = torch.linspace(0.001, 0.999, 999)[:, None]
-    highest = grid[Beta(alpha, beta).log_prob(grid).argmax(dim=0), 0]
-    torch.testing.assert_close(beta_mode(alpha, beta)[0], highest, rtol=0, atol=1e-3)
-
-
-@pytest.mark.parametrize(
-    ("alpha", "beta", "mode"),
-    [(0.5, 2.0, 0.0), (2.0, 0.5, 1.0), (0.5, 0.25, 2 / 3), (1.0, 1.0, 0.5)],
-)
-def test_the_mode_of_a_peakless_density_is_its_end_or_mean(alpha, beta, mode):
-    found = beta_mode(torch.tensor([[alpha, alpha]]), torch.tensor([[beta, beta]]))
-    torch.testing.assert_close(found, torch.tensor([[mode, mode]]))
-
-
-def test_labels_keep_the_clamp_from_the_ends():
-    labels = torch.tensor([[-1.0, 1.0], [0.0, 0.5]])
-    unit = unit_from_action(labels, label_clamp=0.01)
-    torch.testing.assert_close(unit, torch.tensor([[0.01, 0.99], [0.5, 0.75]]))
 
 
 def test_samples_repeat_with_the_generator_and_have_the_mean_of_the_distribution(constant_learner):

@@ -1,8 +1,9 @@
 import pytest
 
 from mjdrive.errors import ConfigError, UnknownNameError
-from mjdrive.learning.settings import learner_settings
+from mjdrive.learning.settings import acting_settings, learner_settings
 from models import presets
+from models.config import METHODS
 
 
 def test_without_assignments_it_is_the_preset() -> None:
@@ -52,3 +53,28 @@ def test_unknown_method_and_preset_are_refused() -> None:
         learner_settings("bc")
     with pytest.raises(ConfigError, match="Unknown preset 'fast'"):
         learner_settings("ibc", preset="fast")
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_acting_as_a_preset_changes_nothing_that_is_learnt(method: str) -> None:
+    trained = learner_settings(
+        method,
+        assignments=(
+            "categorical.points=9",
+            "categorical.choice=argmax",
+            "diffusion.prediction=epsilon",
+            "diffusion.steps=3",
+            "flow.steps=2",
+            "beta.label_noise=0.3",
+            "sampler.grid.points=5",
+        ),
+    )
+    expected = learner_settings(
+        method,
+        assignments=(
+            "categorical.points=9",
+            "diffusion.prediction=epsilon",
+            "beta.label_noise=0.3",
+        ),
+    )
+    assert acting_settings(trained, preset="standard") == expected

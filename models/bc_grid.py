@@ -1,0 +1,128 @@
+"""Behavioural cloning with a categorical distribution over a grid of actions: explicit, with any number of modes."""
+
+import torch
+from jaxtyping import Float, UInt8
+from torch import Tensor, nn
+from torch.nn import functional as F  # noqa: N812
+
+from models.config import LearnerConfig
+from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_action, policy_head
+from models.interfaces import ACTION_BOUND, Batch, Chance, Learner, weighted_mean
+from models.samplers.draws import draw_categorical
+from models.samplers.grid import action_grid
+from models.threads import one_thread
+
+
+class BcGridLearner(Learner):
+    """Explicit and multimodal: one logit for each pair of an acceleration and a steering.
+
+    What is learnt is a density that is constant in the cell of each point, which reaches halfway to its neighbours.
+    """
+
+    def __init__(self, config: LearnerConfig) -> None:
+        super().__init__()
+        self.config = config
+        self.encoder = Encoder(config.network)
+        self.head = policy_head(self.encoder.feature_size)
+        self.logits = nn.Linear(HIDDEN_SIZE, config.categorical.points**2)
+
+    def log_probabilities(
+        self, bev: UInt8[Tensor, "B C H W"], state: Float[Tensor, "B 3"]
+    ) -> Float[Tensor, "B N"]:
+        """Log probability of each point of the grid [nats], acceleration outermost, in single precision."""
+        hidden = self.head(self.encoder(bev, state))
+        return F.log_softmax(self.logits(hidden).float(), dim=1)
+
+    def draw(self, actions: Float[Tensor, "B 2"], *, generator: torch.Generator) -> Chance:
+        """Draw dropout; smoothing leaves nothing else to chance."""
+        probability = self.config.network.state_dropout
+        return Chance(keeps_previous=draw_dropout(len(actions), probability, generator=generator))
+
+    def loss(
+        self, batch: Batch, chance: Chance, *, weights: Float[Tensor, " B"] | None
+    ) -> Float[Tensor, ""]:
+        """Mean cross-entropy between the smoothed labels and the grid [nats]."""
+        settings = self.config.categorical
+        state = drop_previous_action(batch.state, chance.keeps_previous)
+        log_probabilities = self.log_probabilities(batch.bev, state).unflatten(
+            1, (settings.points, settings.points)
+        )
+        targets = smoothed_labels(
+            batch.actions, points=settings.points, smoothing=settings.smoothing
+        )
+        losses = -torch.einsum("bij,bi,bj->b", log_probabilities, targets[:, 0], targets[:, 1])
+        return weighted_mean(losses, weights)
+
+    @torch.no_grad()
+    def act(
+        self,
+        bev: UInt8[Tensor, "B C H W"],
+        state: Float[Tensor, "B 3"],
+        *,
+        generator: torch.Generator,
+    ) -> Float[Tensor, "B 2"]:
+        """The densest point, or one drawn from the grid, as the settings say."""
+        settings = self.config.categorical
+        with one_thread():
+            log_probabilities = self.log_probabilities(bev, state)
+        actions = action_grid(settings.points, device=log_probabilities.device)
+        if settings.choice == "argmax":
+            areas = _cell_areas(settings.points, device=log_probabilities.device)
+            return actions[(log_probabilities - areas.log()).argmax(dim=1)]
+        probabilities = torch.softmax(log_probabilities / settings.temperature, dim=1)
+        return actions[draw_categorical(probabilities, 1, generator=generator).squeeze(1)]
+
+    @torch.no_grad()
+    def log_density(
+        self,
+        bev: UInt8[Tensor, "B C H W"],
+        state: Float[Tensor, "B 3"],
+        actions: Float[Tensor, "A N 2"],
+    ) -> Float[Tensor, "B N"]:
+        """Log of the density of actions: the probability of the cell that each lies in, by its area [nats]."""
+        points = self.config.categorical.points
+        with one_thread():
+            log_probabilities = self.log_probabilities(bev, state)
+        areas = _cell_areas(points, device=log_probabilities.device)
+        nearest = nearest_points(actions, points=points)
+        cells = (nearest[..., 0] * points + nearest[..., 1]).expand(len(bev), -1)  # (B, N)
+        return (log_probabilities - areas.log()).gather(1, cells)
+
+
+def nearest_points(actions: Float[Tensor, "*B 2"], *, points: int) -> Tensor:
+    """Index of the nearest point along each axis, int64 of the shape of the actions [-]."""
+    share = (actions + ACTION_BOUND) / (2 * ACTION_BOUND)
+    return (share * (points - 1)).round().long().clamp(0, points - 1)
+
+
+def smoothed_labels(
+    actions: Float[Tensor, "B 2"], *, points: int, smoothing: float
+) -> Float[Tensor, "B 2 P"]:
+    """Spread each label over the points of each axis.
+
+    Args:
+        actions: Labels [-].
+        points: Points along an axis.
+        smoothing: Standard deviation of the Gaussian, which is cut off at the ends; 0 for none [-].
+
+    Returns:
+        Probability of the cell of each point; the product over both axes is that of the pair [-].
+    """
+    if smoothing == 0:
+        return F.one_hot(nearest_points(actions, points=points), points).to(actions.dtype)
+    axis = torch.linspace(-ACTION_BOUND, ACTION_BOUND, points, device=actions.device)
+    exponents = -0.5 * ((axis - actions[..., None]) / smoothing).square()
+    return torch.softmax(exponents + _cell_widths(points, device=actions.device).log(), dim=-1)
+
+
+def _cell_widths(points: int, *, device: torch.device) -> Float[Tensor, " P"]:
+    """Width of the cell of each point; those at the ends reach inwards only [-]."""
+    widths = torch.full((points,), 2 * ACTION_BOUND / (points - 1), device=device)
+    widths[[0, -1]] /= 2
+    return widths
+
+
+def _cell_areas(points: int, *, device: torch.device) -> Float[Tensor, " N"]:
+    """Area of the cell of each point of the grid [-]."""
+    widths = _cell_widths(points, device=device)
+    return torch.outer(widths, widths).flatten()

@@ -1,0 +1,101 @@
+"""The network of the generative policies: a noisy action, its time and an observation in, a vector out.
+
+Shape letters: B batch, N noisy actions of each observation, H hidden units.
+"""
+
+import math
+
+import torch
+from jaxtyping import Float
+from torch import Tensor, nn
+from torch.nn import functional as F  # noqa: N812
+
+from models.interfaces import ACTION_SIZE
+
+NUM_FREQUENCIES = 8
+
+
+class Denoiser(nn.Module):
+    """MLP([feature, noisy action, time]) of three hidden layers, smooth so that its divergence can be integrated.
+
+    The first layer is a sum of three products, of which that with the features is done once an observation. It is
+    never autocast: a density is an integral over many evaluations, and bfloat16 would move actions by up to 0.004.
+    """
+
+    def __init__(self, feature_size: int, *, width: int) -> None:
+        super().__init__()
+        self.observation = nn.Linear(feature_size, width)
+        self.action = nn.Linear(ACTION_SIZE, width, bias=False)
+        self.time = nn.Linear(1 + 2 * NUM_FREQUENCIES, width, bias=False)
+        self.second = nn.Linear(width, width)
+        self.third = nn.Linear(width, width)
+        self.last = nn.Linear(width, ACTION_SIZE)
+
+    def observe(self, features: Float[Tensor, "B F"]) -> Float[Tensor, "B 1 H"]:
+        """What the observations [-] add to the first layer, to be handed to every evaluation [-]."""
+        with torch.autocast(features.device.type, enabled=False):
+            return self.observation(features.float())[:, None]
+
+    def forward(
+        self,
+        observed: Float[Tensor, "B 1 H"],
+        noisy: Float[Tensor, "B N 2"],
+        times: Float[Tensor, "B N"] | float,
+    ) -> Float[Tensor, "B N 2"]:
+        """Evaluate the network.
+
+        Args:
+            observed: From `observe`.
+            noisy: Noisy actions of each observation [-].
+            times: Their times in [0, 1], or one for all [-].
+
+        Returns:
+            One vector an action, in single precision [-].
+        """
+        with torch.autocast(noisy.device.type, enabled=False):
+            units = F.silu(self._first(observed, noisy, times))
+            return self.last(F.silu(self.third(F.silu(self.second(units)))))
+
+    def with_divergence(
+        self, observed: Float[Tensor, "1 H"], noisy: Float[Tensor, "N 2"], time: float
+    ) -> tuple[Float[Tensor, "N 2"], Float[Tensor, " N"]]:
+        """Evaluate the network for one observation, and its divergence: the trace of its derivative by the action.
+
+        The derivative by each of the two components runs along with the value, which is exact and needs no graph.
+
+        Args:
+            observed: From `observe`, of one observation.
+            noisy: Noisy actions [-].
+            time: Their time in [0, 1] [-].
+
+        Returns:
+            One vector an action [-], and the divergence there [-].
+        """
+        before = self._first(observed, noisy, time)
+        slopes = self.action.weight.t()[:, None] * _silu_slope(before)  # (2, N, H)
+        units = F.silu(before)
+        for layer in (self.second, self.third):
+            before = layer(units)
+            slopes = F.linear(slopes, layer.weight) * _silu_slope(before)
+            units = F.silu(before)
+        # The derivative of a component by itself takes one row of the last layer each.
+        divergence = torch.einsum("anh,ah->n", slopes, self.last.weight)
+        return self.last(units), divergence
+
+    def _first(self, observed: Tensor, noisy: Tensor, times: Tensor | float) -> Tensor:
+        """The first layer before its bend."""
+        times = torch.as_tensor(times, device=noisy.device, dtype=noisy.dtype)
+        return observed + self.action(noisy) + self.time(_embedded(times))
+
+
+def _embedded(times: Float[Tensor, "*B"]) -> Float[Tensor, "*B E"]:
+    """Times in [0, 1] as waves of growing frequency, so that a network tells near ones apart [-]."""
+    frequencies = math.pi * torch.arange(1, NUM_FREQUENCIES + 1, device=times.device)
+    angles = times[..., None] * frequencies
+    return torch.cat((times[..., None], angles.sin(), angles.cos()), dim=-1)
+
+
+def _silu_slope(x: Tensor) -> Tensor:
+    """Derivative of x * sigmoid(x)."""
+    sigmoid = x.sigmoid()
+    return sigmoid * (1 + x * (1 - sigmoid))
