@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from mjdrive.datatypes import Episode, Observation, Policy
+from mjdrive.datatypes import Episode, Observation, Policy, Town
 from mjdrive.evaluation import forking, metrics
 from mjdrive.evaluation.branches import branches_taken
 from mjdrive.evaluation.forking import Fork, ForkOutcome
@@ -80,10 +80,8 @@ def live(
     paths: list[FanPath] = []
 
     def keep(drive: Episode, is_safe: bool) -> None:
-        taken = branches_taken(drive, simulation.town).keys() & set(fork.exits)
-        paths.append(
-            FanPath(exit=min(taken, default=""), is_safe=is_safe, points=thinned_path(drive))
-        )
+        taken = exit_of(drive, fork, simulation.town)
+        paths.append(FanPath(exit=taken, is_safe=is_safe, points=thinned_path(drive)))
         on_drive(drive, is_safe)
 
     outcome = forking.outcome(
@@ -104,6 +102,11 @@ def live(
         paths=tuple(paths),
     )
     return outcome, record
+
+
+def exit_of(drive: Episode, fork: Fork, town: Town) -> str:
+    """Name of the junction lane that a drive from a moment took to its end; empty if it took none."""
+    return min(branches_taken(drive, town).keys() & set(fork.exits), default="")
 
 
 def thinned_path(drive: Episode) -> tuple[tuple[float, float], ...]:
