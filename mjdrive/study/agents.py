@@ -1,6 +1,5 @@
 """Who learns and who drives in a study: agents, and agents in their ways to act."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 from mjdrive.config import Arm, StudyConfig, Variant
@@ -97,10 +96,3 @@ def require_buildable(config: StudyConfig) -> None:
             acting_changed(learnt[arm.variant], arm.acting)
         except ConfigError as error:
             raise ConfigError(f"The arm {arm.name} of the study cannot act: {error}") from error
-
-
-def seeds_with_details(config: StudyConfig) -> Iterator[ArmAgent]:
-    """The main arms whose long drive, landscapes and turns are kept for pictures; ablations have none."""
-    for it in arm_agents(config):
-        if it.is_main and not it.agent.variant.change and it.agent.seed in config.detail_seeds:
-            yield it

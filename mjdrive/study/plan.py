@@ -1,0 +1,188 @@
+"""What a study has to do: its jobs, all of them, in the order of its results."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from mjdrive.config import Reference, StudyConfig
+from mjdrive.datatypes import Town
+from mjdrive.evaluation.drives import plan_drives
+from mjdrive.study import checkpoints, drivers, results
+from mjdrive.study.agents import ArmAgent, agents, arm_agents, main_arm
+from mjdrive.study.drivers import Who
+from mjdrive.study.driving import DriveJob
+from mjdrive.study.folder import StudyFolder
+from mjdrive.study.forks import ForkJob, chosen_approaches
+from mjdrive.study.judging import JudgeJob
+
+LONG = "long"
+"""Name of the long drive."""
+
+
+@dataclass(frozen=True, slots=True)
+class ArmPlan:
+    """What one agent in one way to act has to do.
+
+    Attributes:
+        it: The agent and how it acts; None for a reference.
+        who: The same as somebody who drives.
+        drives: The drives of the tables.
+        long_drive: The long one; None if it makes none.
+        forks: Moments to live; none for a reference.
+        judge: What to ask; None for a reference.
+    """
+
+    it: ArmAgent | None
+    who: Who
+    drives: tuple[DriveJob, ...]
+    long_drive: DriveJob | None
+    forks: tuple[ForkJob, ...]
+    judge: JudgeJob | None
+
+    @property
+    def all_drives(self) -> tuple[DriveJob, ...]:
+        """All its drives, the long one last."""
+        return (*self.drives, *(() if self.long_drive is None else (self.long_drive,)))
+
+
+@dataclass(frozen=True, slots=True)
+class ProgressPlan:
+    """A checkpoint that drives.
+
+    Attributes:
+        arm: Name of the main arm.
+        variant: Name of the variant.
+        seed: Training seed [-].
+        epoch: Complete epochs [-].
+        loss: Mean loss of the last of them [nats].
+        drives: Its drives.
+    """
+
+    arm: str
+    variant: str
+    seed: int
+    epoch: int
+    loss: float
+    drives: tuple[DriveJob, ...]
+
+
+def plan_references(config: StudyConfig, folder: StudyFolder) -> tuple[ArmPlan, ...]:
+    """What the references drive."""
+    return tuple(_plan_reference(name, config, folder) for name in config.references)
+
+
+def plan_arms(
+    config: StudyConfig, folder: StudyFolder, runs: dict[str, Path], town: Town
+) -> tuple[ArmPlan, ...]:
+    """What the agents do once they are trained.
+
+    Args:
+        config: Settings of the study.
+        folder: Its folder.
+        runs: Run folder of each agent, by name.
+        town: Where they drive.
+    """
+    approaches = chosen_approaches(town, config.forks)
+    return tuple(
+        _plan_arm(it, config, folder, runs[it.agent.name], approaches) for it in arm_agents(config)
+    )
+
+
+def plan_progress(
+    config: StudyConfig, folder: StudyFolder, runs: dict[str, Path]
+) -> tuple[ProgressPlan, ...]:
+    """What the kept checkpoints of the methods drive; ablations make no progress that anybody looks at.
+
+    Args:
+        config: Settings of the study.
+        folder: Its folder.
+        runs: Run folder of each agent, by name.
+    """
+    if config.progress_every == 0:
+        return ()
+    found = []
+    for agent in agents(config):
+        if agent.variant.change:
+            continue
+        run, arm = runs[agent.name], main_arm(config, agent.variant.name)
+        losses = checkpoints.losses(run)
+        for epoch, checkpoint in sorted(checkpoints.kept_epochs(run).items()):
+            who = drivers.agent(
+                f"{arm.name}-{agent.seed}-epoch-{epoch:04d}", checkpoint, arm.acting
+            )
+            drives = _drives(
+                who, config, folder, count=config.progress_episodes, steps=config.progress_steps
+            )
+            found.append(
+                ProgressPlan(arm.name, agent.variant.name, agent.seed, epoch, losses[epoch], drives)
+            )
+    return tuple(found)
+
+
+def _plan_reference(name: Reference, config: StudyConfig, folder: StudyFolder) -> ArmPlan:
+    who = Who(f"{name}-0", reference=name)
+    return ArmPlan(
+        it=None,
+        who=who,
+        drives=_drives(who, config, folder, count=config.episodes, steps=config.steps),
+        long_drive=_long_drive(who, name, 0, config, folder),
+        forks=(),
+        judge=None,
+    )
+
+
+def _plan_arm(
+    it: ArmAgent, config: StudyConfig, folder: StudyFolder, run: Path, approaches: tuple[str, ...]
+) -> ArmPlan:
+    who = drivers.agent(it.name, run, it.arm.acting)
+    seed = it.agent.seed
+    is_shown = it.is_main and not it.agent.variant.change and seed in config.detail_seeds
+    forks = tuple(
+        ForkJob(
+            who=who,
+            arm=it.arm.name,
+            agent_seed=seed,
+            approach=approach,
+            file=folder.forks(who.name, index),
+            turns=folder.path / results.TURNS if is_shown and index == 0 else None,
+            num_rollouts=config.fork_rollouts,
+            seed=config.seed,
+        )
+        for index, approach in enumerate(approaches)
+    )
+    judge = JudgeJob(
+        who=who,
+        arm=it.arm.name,
+        variant=it.agent.variant.name,
+        agent_seed=seed,
+        file=folder.judged(who.name),
+        landscapes=folder.path / results.LANDSCAPES if is_shown else None,
+        seed=config.seed,
+    )
+    return ArmPlan(
+        it=it,
+        who=who,
+        drives=_drives(who, config, folder, count=config.episodes, steps=config.steps),
+        long_drive=_long_drive(who, it.arm.name, seed, config, folder) if is_shown else None,
+        forks=forks,
+        judge=judge,
+    )
+
+
+def _drives(
+    who: Who, config: StudyConfig, folder: StudyFolder, *, count: int, steps: int
+) -> tuple[DriveJob, ...]:
+    return tuple(
+        DriveJob(who, folder.drive(who.name, planned.name), planned.seed, steps)
+        for planned in plan_drives(count, seed=config.seed)
+    )
+
+
+def _long_drive(
+    who: Who, arm: str, seed: int, config: StudyConfig, folder: StudyFolder
+) -> DriveJob | None:
+    """The long drive has a start of its own: that of the drive after the last one of the tables."""
+    if config.long_steps == 0:
+        return None
+    planned = plan_drives(config.episodes + 1, seed=config.seed)[-1]
+    file = folder.drive(who.name, LONG)
+    return DriveJob(who, file, planned.seed, config.long_steps, path_of=(arm, seed))
