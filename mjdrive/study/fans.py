@@ -10,7 +10,10 @@ from mjdrive.evaluation.forking import Fork, ForkOutcome
 from mjdrive.simulation.simulation import Simulation
 
 POINT_INTERVAL = 0.5
-"""Time between two points of a path [s]."""
+"""Time between two points of the path of a drive through the town [s]."""
+
+FAN_INTERVAL = 0.2
+"""The same of a path through one junction [s]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +23,7 @@ class FanPath:
     Attributes:
         exit: Name of the junction lane that was driven to its end; empty if none was.
         is_safe: Whether it stayed on the road and hit nothing for as long as that is judged.
-        points: Rear axle twice a second, world frame [m].
+        points: Rear axle five times a second, world frame [m].
     """
 
     exit: str
@@ -81,7 +84,7 @@ def live(
 
     def keep(drive: Episode, is_safe: bool) -> None:
         taken = exit_of(drive, fork, simulation.town)
-        paths.append(FanPath(exit=taken, is_safe=is_safe, points=thinned_path(drive)))
+        paths.append(FanPath(exit=taken, is_safe=is_safe, points=thinned_path(drive, FAN_INTERVAL)))
         on_drive(drive, is_safe)
 
     outcome = forking.outcome(
@@ -109,7 +112,9 @@ def exit_of(drive: Episode, fork: Fork, town: Town) -> str:
     return min(branches_taken(drive, town).keys() & set(fork.exits), default="")
 
 
-def thinned_path(drive: Episode) -> tuple[tuple[float, float], ...]:
-    """Where the rear axle was twice a second, to the centimetre, world frame [m]."""
-    step = max(1, round(POINT_INTERVAL / metrics.control_interval(drive)))
+def thinned_path(
+    drive: Episode, interval: float = POINT_INTERVAL
+) -> tuple[tuple[float, float], ...]:
+    """Where the rear axle was every so often [s], to the centimetre, world frame [m]."""
+    step = max(1, round(interval / metrics.control_interval(drive)))
     return tuple((round(x, 2), round(y, 2)) for x, y in drive.vehicle[::step, :2].tolist())

@@ -12,13 +12,19 @@ from matplotlib.figure import Figure
 
 from mjdrive.datatypes import InfractionKind, Town
 from mjdrive.evaluation.figure_style import SYMBOLS
-from mjdrive.evaluation.figures import draw_town, map_extent
+from mjdrive.evaluation.figures import draw_town
 from mjdrive.picture_style import STYLE, save
 from mjdrive.study.figure_looks import Look
 from mjdrive.study.results import DrivenPath
 
 LONGEST_STEP = 25.0
 """Two points that are farther apart are not on one path [m]: no car is so fast in half a second."""
+
+PIECE = 30
+"""Steps of a path that are drawn in one go [-]: nobody comes round a block in fifteen seconds."""
+
+MARGIN = 5.0
+"""Ground shown around the lanes [m]."""
 
 PINS = {
     "red_lights": SYMBOLS[InfractionKind.RED_LIGHT],
@@ -39,11 +45,11 @@ def draw_paths(
         columns: Maps beside each other [-].
     """
     with matplotlib.style.context(["default", STYLE]):
-        width, height = map_extent(town)
+        width, height = (float(side) + 2 * MARGIN for side in town.bounds[2:] - town.bounds[:2])
         columns = min(columns, len(paths))
         rows = math.ceil(len(paths) / columns)
         wide = 9.0 / columns
-        size = (9.0, rows * (wide * height / width + 0.3) + 0.35)
+        size = (9.0, rows * (wide * height / width + 0.5) + 0.35)
         figure = Figure(figsize=size, layout="constrained")
         grid = figure.subplots(rows, columns, squeeze=False)
         for axes in grid.flat:
@@ -52,7 +58,11 @@ def draw_paths(
             draw_town(axes, town)
             _draw_path(axes, driven, colour=look.colour)
             _draw_pins(axes, driven, size=70.0 / columns)
-            axes.set_title(_title(look, driven), fontsize=9 if columns < 4 else 7.5)
+            axes.set(
+                xlim=(town.bounds[0] - MARGIN, town.bounds[2] + MARGIN),
+                ylim=(town.bounds[1] - MARGIN, town.bounds[3] + MARGIN),
+            )
+            axes.set_title(_title(look, driven), fontsize=9 if columns < 3 else 8)
         handles = {
             text: handle
             for axes in grid.flat
@@ -70,17 +80,26 @@ def _title(look: Look, driven: DrivenPath) -> str:
     lengths = np.hypot(*np.diff(np.array(driven.points), axis=0).T)
     kilometres = float(lengths.sum()) / 1000
     return (
-        f"{look.label}: {kilometres:.1f} km in {driven.duration_s:,.0f} s, "
+        f"{look.label}\n{kilometres:.1f} km in {driven.duration_s:,.0f} s, "
         f"{len(driven.red_lights)} red, {len(driven.mishaps)} mishap{'' if len(driven.mishaps) == 1 else 's'}"
     )
 
 
 def _draw_path(axes: Axes, driven: DrivenPath, *, colour: str) -> None:
+    """Draw a path in short pieces, so that one street driven again is darker than before."""
     points = np.array(driven.points)
-    steps = np.stack([points[:-1], points[1:]], axis=1)
-    steps = steps[np.hypot(*(steps[:, 1] - steps[:, 0]).T) < LONGEST_STEP]
+    jumps = np.hypot(*np.diff(points, axis=0).T) > LONGEST_STEP
+    ends = np.flatnonzero(jumps) + 1
+    pieces = [
+        part[first : first + PIECE + 1]
+        for part in np.split(points, ends)
+        for first in range(0, len(part) - 1, PIECE)
+    ]
+    opacity = min(0.15 * math.sqrt(3000.0 / max(driven.duration_s, 1.0)), 0.6)
     axes.add_collection(
-        LineCollection(list(steps), color=colour, linewidth=1.6, alpha=0.35, zorder=2)
+        LineCollection(
+            pieces, color=colour, linewidth=1.8, alpha=opacity, capstyle="butt", zorder=2
+        )
     )
     axes.plot(*points[0], "o", color="white", mec="black", ms=5, zorder=3, label="start", ls="")
 
@@ -90,6 +109,7 @@ def _draw_pins(axes: Axes, driven: DrivenPath, *, size: float) -> None:
         places = np.array(getattr(driven, name)).reshape(-1, 2)
         if len(places):
             axes.scatter(
-                *places.T, s=size, marker=marker, color=colour, edgecolor="white", linewidth=0.6,
+                places[:, 0],
+                places[:, 1], s=size, marker=marker, color=colour, edgecolor="white", linewidth=0.6,
                 label=label, zorder=4,
             )  # fmt: skip

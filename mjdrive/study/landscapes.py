@@ -14,6 +14,7 @@ from jaxtyping import Float
 from mjdrive.bev.projector import BevProjector
 from mjdrive.datatypes import Observation
 from mjdrive.evaluation.landscape import Mode, entropy_bits, modes
+from mjdrive.study.results import LandscapeRecord
 from mjdrive.study.situations import Moment
 from models.interfaces import Learner
 
@@ -116,3 +117,11 @@ def normalised(log_density: Float[np.ndarray, "A S"]) -> Float[np.ndarray, "A S"
     """Turn log densities, up to a constant [nats], into probabilities that sum to one."""
     weights = np.exp(log_density - log_density.max())
     return np.asarray(weights / weights.sum())
+
+
+def from_record(record: LandscapeRecord) -> Landscape:
+    """Take a landscape out of its record."""
+    shape = (record.points, record.points)
+    return Landscape(
+        probabilities=np.array(record.probabilities).reshape(shape), draws=np.array(record.draws)
+    )
