@@ -111,6 +111,35 @@ def episode_bars(name: str, *, total: int) -> Iterator[Callable[[str, int, int],
 
 
 @contextmanager
+def stage_bars() -> Iterator[Callable[[str, int], Callable[[str, int, int], None]]]:
+    """A bar for each stage of long work, and below them one for each thing that is worked on until it is done.
+
+    Yields:
+        To be called with the name of a stage and the number of things in it; what comes back is to be called with the
+        name of a thing, how much of it is done and how much there is.
+    """
+    with progress_bars() as bars:
+
+        def begin(stage: str, count: int) -> Callable[[str, int, int], None]:
+            whole = bars.add_task(escape(stage), total=count, unit="items")
+            tasks: dict[str, TaskID] = {}
+
+            def report(thing: str, done: int, expected: int) -> None:
+                if done == expected:
+                    bars.advance(whole)
+                    if thing in tasks:
+                        bars.remove_task(tasks.pop(thing))
+                    return
+                if thing not in tasks:
+                    tasks[thing] = bars.add_task(escape(f"  {thing}"))
+                bars.update(tasks[thing], completed=done, total=expected)
+
+            return report
+
+        yield begin
+
+
+@contextmanager
 def ended_by_sigterm() -> Iterator[None]:
     """Let SIGTERM end the work inside as Ctrl-C does: what is unfinished is cleaned up."""
 

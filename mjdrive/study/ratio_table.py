@@ -1,0 +1,88 @@
+"""The result to reach: policies against the expert in the same time and town, beside the bars that were set."""
+
+from collections.abc import Callable
+
+from mjdrive.config import StudyConfig
+from mjdrive.study.arm_figures import total
+from mjdrive.study.results import ArmResult, DriveFigures, StudyResults
+from mjdrive.study.rows import (
+    NOTHING,
+    Row,
+    arm_rows,
+    cell,
+    markdown,
+    ratio,
+    reference_rows,
+)
+
+BARS = {
+    "infraction penalty per 300 s": ("0.66", "0.85", "0.97"),
+    "distance / the expert's": ("about 1.1, red lights run", "0.90", "0.97"),
+    "branch recall / the expert's": ("whole city", "0.90", "1.00"),
+    "JS of turns [bit]": (NOTHING, "0.05", "0.02"),
+    "collisions per 3,000 s": ("no crashes", "0.5", "0"),
+    "off road [s] per 3,000 s": (NOTHING, "5", "0"),
+}
+"""What the paper says of its DA-IBC, the bar and the goal, by column."""
+
+REFERENCE_SECONDS = 3000.0
+"""Time that collisions and time off the road are counted over [s]."""
+
+
+def ratio_table(config: StudyConfig, found: StudyResults) -> str:
+    """Each policy beside the bars, with bootstrap intervals over seeds and episodes.
+
+    Distances are compared with the expert's own chance taken into account. Recall is a figure of all drives of an agent
+    together, so that its interval is one over training seeds alone.
+
+    Args:
+        config: Settings of the study.
+        found: Its results.
+    """
+    expert = next((it for it in found.references if it.arm == "expert"), None)
+    rows = [*reference_rows(found), *(it for it in arm_rows(config, found) if not it.change)]
+    columns = ("paper's DA-IBC", "bar", "goal")
+    body = [
+        [name, *(values[index] for values in BARS.values())] for index, name in enumerate(columns)
+    ]
+    body += [[row.label, *_cells(row, expert)] for row in rows]
+    return markdown(["", *BARS], body)
+
+
+def _cells(row: Row, expert: ArmResult | None) -> list[str]:
+    return [
+        cell(row.per_drive(_penalty)),
+        _distance_ratio(row, expert),
+        _recall_ratio(row, expert),
+        cell(row.per_agent(lambda it: it.choices.turn_divergence)),
+        cell(row.per_agent(lambda it: _per_time(it, lambda drive: drive.collisions))),
+        cell(row.per_agent(lambda it: _per_time(it, lambda drive: drive.off_road_s))),
+    ]
+
+
+def _penalty(drive: DriveFigures) -> float:
+    return drive.penalty
+
+
+def _distance(drive: DriveFigures) -> float:
+    return drive.distance_m
+
+
+def _distance_ratio(row: Row, expert: ArmResult | None) -> str:
+    if expert is None:
+        return NOTHING
+    figures = row.per_drive(_distance)
+    found = ratio(figures, Row("", (expert,)).per_drive(_distance))
+    return NOTHING if found is None else str(found)
+
+
+def _recall_ratio(row: Row, expert: ArmResult | None) -> str:
+    if expert is None or not expert.choices.recall:
+        return NOTHING
+    whole = expert.choices.recall
+    return cell(row.per_agent(lambda it: it.choices.recall / whole))
+
+
+def _per_time(result: ArmResult, figure: Callable[[DriveFigures], float]) -> float:
+    """A figure in the time that bars are set for."""
+    return total(figure)(result) * REFERENCE_SECONDS / total(lambda it: it.duration_s)(result)

@@ -1,0 +1,228 @@
+"""A whole study: demonstrations, training, drives and judgement, tables and report, each gone on with where it stopped."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from mjdrive import versions
+from mjdrive.config import CollectConfig, Demonstrations, StudyConfig
+from mjdrive.episodes import dataset, demonstrations, presets
+from mjdrive.episodes.plan import lay_routes, plan
+from mjdrive.errors import DataError, UnknownNameError
+from mjdrive.execution.serial import SerialExecutor
+from mjdrive.execution.work import Executor
+from mjdrive.study import checkpoints, tables
+from mjdrive.study.agents import Agent, agents, learner_config, require_buildable
+from mjdrive.study.assembling import assemble
+from mjdrive.study.driving import Place, Report, make_drives
+from mjdrive.study.folder import HELD_OUT, StudyFolder, begin
+from mjdrive.study.forks import live_forks
+from mjdrive.study.judging import Judging, judge_all
+from mjdrive.study.plan import ArmPlan, plan_arms, plan_progress, plan_references
+from mjdrive.study.results import StudyRecord, StudyResults
+from mjdrive.study.training import TrainingJob, train_all
+from mjdrive.town import library
+from mjdrive.vehicle import cars
+
+Stage = Callable[[str, int], Report]
+"""Told that a stage begins, and of how many things it consists; what comes back is told how far each of them is."""
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """A study to run, or to go on with.
+
+    Attributes:
+        config: All that decides its results.
+        folder: Where everything goes.
+        data: Folders of data sets that are there already, by name; the study collects the others.
+        trained: Folder with trained runs; agents that have none there are trained in the study.
+        executor: Where drives are made and agents are trained; the drives do not depend on it.
+    """
+
+    config: StudyConfig
+    folder: Path
+    data: Mapping[str, Path] = field(default_factory=dict)
+    trained: Path | None = None
+    executor: Executor = field(default_factory=SerialExecutor)
+
+    def run(self, stage: Stage) -> StudyResults:
+        """Do what is missing.
+
+        Args:
+            stage: Told how far the study is.
+
+        Returns:
+            The results, which are in `results.json`, too.
+
+        Raises:
+            ConfigError: If a setting has no meaning.
+            DataError: If the folder holds something else, or a data set is damaged.
+            RunError: If a trained run is not what the study says.
+            UnknownNameError: If there is no such town, method, preset, data set or setting.
+            WorkerError: If a process was lost.
+        """
+        require_buildable(self.config)
+        self._require_data()
+        given = self._given_runs()
+        begin(self.folder, self._record(given))
+        data = self._collect(stage)
+        runs = self._train(data, given, stage)
+        return self._evaluate(data, runs, stage)
+
+    @property
+    def _names(self) -> StudyFolder:
+        return StudyFolder(self.folder)
+
+    def _require_data(self) -> None:
+        """Refuse data sets that nobody learns from, and those that are unfinished."""
+        known = {it.name for it in self.config.demonstrations}
+        for name, place in self.data.items():
+            if name not in known:
+                raise UnknownNameError("data set of the study", name, known)
+            town = dataset.read_manifest(place).town
+            if town != self.config.learning_town:
+                raise DataError(
+                    f"Data set '{place}' was driven in {town}; expected {self.config.learning_town}. Give another one "
+                    f"with --data, or set learning_town={town}."
+                )
+
+    def _given_runs(self) -> dict[str, Path]:
+        """Runs that were trained before, by the name of their agent."""
+        if self.trained is None:
+            return {}
+        if not self.trained.is_dir():
+            raise DataError(
+                f"There is no folder '{self.trained}'; expected one with trained runs. Give another one with --runs."
+            )
+        found = {it.name: checkpoints.find_run(it, self.trained) for it in agents(self.config)}
+        return {name: run for name, run in found.items() if run is not None}
+
+    def _record(self, given: Mapping[str, Path]) -> StudyRecord:
+        names = sorted({self.config.town, self.config.learning_town})
+        return StudyRecord(
+            settings=self.config,
+            versions=versions.all_versions(),
+            towns={name: library.load(name).digest for name in names},
+            car=cars.load().digest,
+            data={name: dataset.digest(place) for name, place in self.data.items()},
+            runs={name: checkpoints.digest(run) for name, run in given.items()},
+        )
+
+    def _collect(self, stage: Stage) -> dict[str, Path]:
+        """Collect the data sets that are not given, and the expert's walk that nobody learns from."""
+        config = self.config
+        wanted = [
+            (config.learning_town, self._names.data(it.name), _collecting(it), config.seed)
+            for it in config.demonstrations
+            if it.name not in self.data
+        ]
+        if config.held_out_km:
+            walk = CollectConfig(random_walk_km=config.held_out_km)
+            wanted.append((config.town, self._names.data(HELD_OUT), walk, config.seed + 1))
+        planned = []
+        for town_name, folder, settings, seed in wanted:
+            town, waypoints = library.load(town_name), library.load_settings(town_name).routes
+            routes = lay_routes(town, waypoints, settings=settings)
+            count = len(plan(town, routes, settings=settings, seed=seed))
+            planned.append((town, routes, folder, settings, seed, count))
+        report = stage("collect", sum(count for *_, count in planned))
+        for town, routes, folder, settings, seed, _ in planned:
+            demonstrations.collect(
+                town,
+                routes,
+                folder,
+                settings=settings,
+                seed=seed,
+                executor=self.executor,
+                report=_prefixed(report, folder.name),
+            )
+        return {
+            it.name: self.data.get(it.name, self._names.data(it.name))
+            for it in config.demonstrations
+        }
+
+    def _train(
+        self, data: Mapping[str, Path], given: Mapping[str, Path], stage: Stage
+    ) -> dict[str, Path]:
+        """Train the agents that are not trained yet."""
+        digests = {name: dataset.digest(place) for name, place in data.items()}
+        samples = {name: _samples(place) for name, place in data.items()}
+        runs: dict[str, Path] = {}
+        jobs = []
+        for it in agents(self.config):
+            run = runs[it.name] = given.get(it.name, self._names.run(it.name))
+            name = it.variant.demonstrations
+            if checkpoints.is_complete(run):
+                settings = learner_config(it.variant)
+                checkpoints.require_planned(run, it, settings, manifest_sha256=digests[name])
+            else:
+                jobs.append(self._training_job(it, data[name], run, samples[name]))
+        report = stage("train", len(jobs))
+        train_all(jobs, executor=self.executor, report=report)
+        return runs
+
+    def _training_job(self, agent: Agent, data: Path, run: Path, num_samples: int) -> TrainingJob:
+        settings = learner_config(agent.variant)
+        optimiser = settings.optimiser
+        num_training = num_samples - math.floor(optimiser.validation_share * num_samples)
+        return TrainingJob(
+            name=agent.name,
+            config=settings,
+            seed=agent.seed,
+            data=data,
+            run=run,
+            keep_every=0 if agent.variant.change else self.config.progress_every,
+            num_steps=optimiser.epochs * math.ceil(num_training / optimiser.batch_size),
+        )
+
+    def _evaluate(
+        self, data: Mapping[str, Path], runs: dict[str, Path], stage: Stage
+    ) -> StudyResults:
+        """Drive, ask, and put everything together."""
+        town = library.load(self.config.town)
+        place = Place(town, cars.load(), versions.all_versions())
+        references = plan_references(self.config, self._names)
+        arms = plan_arms(self.config, self._names, runs, town)
+        progress = plan_progress(self.config, self._names, runs)
+        drives = [job for it in (*references, *arms) for job in it.all_drives]
+        drives += [job for it in progress for job in it.drives]
+        make_drives(place, drives, executor=self.executor, report=stage("drive", len(drives)))
+        forks = [job for it in arms for job in it.forks]
+        live_forks(
+            place, forks, executor=self.executor, report=stage("live moments again", len(forks))
+        )
+        self._judge(place, arms, stage)
+        found = assemble(
+            self.config,
+            self.folder,
+            town=town,
+            data=data,
+            references=references,
+            arms=arms,
+            progress=progress,
+        )
+        tables.write_tables(self.folder)
+        return found
+
+    def _judge(self, place: Place, arms: tuple[ArmPlan, ...], stage: Stage) -> None:
+        jobs = [it.judge for it in arms if it.judge is not None]
+        walk = self._names.data(HELD_OUT) if self.config.held_out_km else None
+        work = Judging(place, walk, self.config.held_out_frames, self.config.seed)
+        judge_all(work, jobs, executor=self.executor, report=stage("judge", len(jobs)))
+
+
+def _collecting(it: Demonstrations) -> CollectConfig:
+    return presets.chosen(
+        it.preset, routes=it.routes or None, random_walk_km=it.random_walk_km or None
+    )
+
+
+def _samples(place: Path) -> int:
+    return sum(entry.steps for entry in dataset.read_manifest(place).episodes)
+
+
+def _prefixed(report: Report, name: str) -> Report:
+    """Name what is reported after where it belongs, as two data sets drive routes of the same names."""
+    return lambda item, done, expected: report(f"{name}, {item}", done, expected)
