@@ -4,7 +4,8 @@ from collections.abc import Callable
 
 from mjdrive.evaluation.forking import mean_outcome
 from mjdrive.evaluation.metrics import RED_LIGHT_FACTOR
-from mjdrive.study.results import ArmResult, DriveFigures
+from mjdrive.study.measures import DriveFigures
+from mjdrive.study.results import ArmResult
 
 
 def total(figure: Callable[[DriveFigures], float]) -> Callable[[ArmResult], float]:
@@ -59,12 +60,12 @@ def conditional_entropy(result: ArmResult) -> float | None:
 
 def num_modes(result: ArmResult) -> float | None:
     """Mean number of ways to act that an agent sees at junctions [-]."""
-    return result.landscape.modes if result.landscape else None
+    return result.landscape.modes if result.landscape and result.landscape.frames else None
 
 
 def junction_entropy(result: ArmResult) -> float | None:
     """Mean entropy of what an agent thinks of all actions at junctions [bit]."""
-    return result.landscape.entropy if result.landscape else None
+    return result.landscape.entropy if result.landscape and result.landscape.frames else None
 
 
 def held_out_gain(result: ArmResult) -> float | None:

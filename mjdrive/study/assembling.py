@@ -17,8 +17,9 @@ from mjdrive.study.drive_records import DriveRecord
 from mjdrive.study.driving import DriveJob
 from mjdrive.study.forks import ForkRecord
 from mjdrive.study.judging import JudgeRecord
+from mjdrive.study.measures import Curve
 from mjdrive.study.plan import ArmPlan, ProgressPlan
-from mjdrive.study.results import ArmResult, Curve, DataResult, ProgressPoint, StudyResults
+from mjdrive.study.results import ArmResult, DataResult, ProgressPoint, StudyResults
 from mjdrive.town import library
 
 _DIGITS = 6

@@ -11,7 +11,8 @@ from mjdrive.evaluation.coverage import distance_along, first_visits
 from mjdrive.evaluation.lights_met import lights_met
 from mjdrive.evaluation.metrics import RED_LIGHT_FACTOR, control_interval, summarise
 from mjdrive.study.fans import thinned_path
-from mjdrive.study.results import DriveFigures, DrivenPath
+from mjdrive.study.measures import DriveFigures
+from mjdrive.study.results import DrivenPath
 
 _MISHAPS = (InfractionKind.COLLISION, InfractionKind.OFF_ROAD)
 

@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 
 from mjdrive.picture_style import STYLE, save
 from mjdrive.study.figure_looks import GRID, INK, PALE, Look
-from mjdrive.study.results import ArmResult, Curve
+from mjdrive.study.measures import Curve
+from mjdrive.study.results import ArmResult
 
 MOVES = {"left": "#4c9be8", "straight": "#58aa58", "right": "#f08c32"}
 """Colour of each way through a junction, as on pictures of towns."""

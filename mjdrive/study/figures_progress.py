@@ -12,7 +12,8 @@ from matplotlib.ticker import MaxNLocator
 
 from mjdrive.picture_style import STYLE, save
 from mjdrive.study.figure_looks import GRID, Look
-from mjdrive.study.results import DriveFigures, ProgressPoint
+from mjdrive.study.measures import DriveFigures
+from mjdrive.study.results import ProgressPoint
 
 Figures = Sequence[DriveFigures]
 

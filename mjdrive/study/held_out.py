@@ -19,7 +19,7 @@ from mjdrive.evaluation.choices import approaches
 from mjdrive.evaluation.landscape import entropy_bits, modes
 from mjdrive.learning.batches import states
 from mjdrive.study.landscapes import POINTS, action_grid, normalised
-from mjdrive.study.results import LandscapeFigures, Likelihood
+from mjdrive.study.measures import LandscapeFigures, Likelihood
 from mjdrive.town.lane_graph import lane_length
 from models.interfaces import Learner
 from models.threads import one_thread

@@ -16,7 +16,8 @@ from mjdrive.study import folder, landscapes
 from mjdrive.study.drivers import Who, load_learner
 from mjdrive.study.driving import Place, Report
 from mjdrive.study.held_out import HeldOut, held_out, judge
-from mjdrive.study.results import LandscapeFigures, LandscapeRecord, Likelihood
+from mjdrive.study.measures import LandscapeFigures, Likelihood
+from mjdrive.study.results import LandscapeRecord
 from mjdrive.study.situations import Moment, situations
 from mjdrive.versions import require_same
 from models.threads import one_thread

@@ -9,7 +9,8 @@ from jaxtyping import Float
 from mjdrive.config import StudyConfig
 from mjdrive.evaluation import bootstrap
 from mjdrive.evaluation.bootstrap import Interval, Statistic
-from mjdrive.study.results import ArmResult, DriveFigures, StudyResults
+from mjdrive.study.measures import DriveFigures
+from mjdrive.study.results import ArmResult, StudyResults
 
 REFERENCE_LABELS = {
     "expert": "PID expert, random walk",

@@ -18,15 +18,9 @@ from mjdrive.study.arm_figures import (
     reds_per_light,
     total,
 )
+from mjdrive.study.measures import DriveFigures
 from mjdrive.study.ratio_table import ratio_table
-from mjdrive.study.results import (
-    RESULTS,
-    STUDY,
-    ArmResult,
-    DriveFigures,
-    StudyRecord,
-    StudyResults,
-)
+from mjdrive.study.results import RESULTS, STUDY, ArmResult, StudyRecord, StudyResults
 from mjdrive.study.rows import (
     NOTHING,
     Row,
