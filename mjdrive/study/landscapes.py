@@ -95,15 +95,40 @@ def landscape(
         points: Grid points along each action component [-].
         num_draws: How many [-].
     """
-    device = next(learner.parameters()).device
-    bev = torch.tensor(observation.bev, device=device)[None]
-    state = torch.tensor(observation.state, device=device)[None]
-    log_density = learner.log_density(bev, state, action_grid(points).to(device)[None])
-    generator = torch.Generator(device).manual_seed(seed)
+    bev, state = _tensors(learner, observation)
+    generator = torch.Generator(bev.device).manual_seed(seed)
     draws = [learner.act(bev, state, generator=generator)[0] for _ in range(num_draws)]
     return Landscape(
-        probabilities=normalised(log_density[0].double().cpu().numpy().reshape(points, points)),
+        probabilities=probabilities(learner, observation, points=points),
         draws=torch.stack(draws).double().cpu().numpy(),
+    )
+
+
+@torch.no_grad()
+def probabilities(
+    learner: Learner, observation: Observation, *, points: int = POINTS
+) -> Float[np.ndarray, "A S"]:
+    """What a policy thinks of all actions, given one observation.
+
+    Args:
+        learner: Trained network.
+        observation: What it sees.
+        points: Grid points along each action component [-].
+
+    Returns:
+        Probabilities of the points, acceleration outermost; they sum to one [-].
+    """
+    bev, state = _tensors(learner, observation)
+    log_density = learner.log_density(bev, state, action_grid(points).to(bev.device)[None])
+    return normalised(log_density[0].double().cpu().numpy().reshape(points, points))
+
+
+def _tensors(learner: Learner, observation: Observation) -> tuple[torch.Tensor, torch.Tensor]:
+    """An observation as a batch of one, where the learner is."""
+    device = next(learner.parameters()).device
+    return (
+        torch.tensor(observation.bev, device=device)[None],
+        torch.tensor(observation.state, device=device)[None],
     )
 
 
