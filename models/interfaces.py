@@ -85,6 +85,10 @@ class Demonstrations(Protocol):
     def actions(self) -> Tensor:
         """Every action, in order of index, shape (D, 2) [-]."""
 
+    @property
+    def states(self) -> Tensor:
+        """Every speed [m/s], previous acceleration and previous steering [-], in order of index, shape (D, 3)."""
+
     def batch(self, indices: Tensor) -> Batch:
         """The pairs at some indices, in their order."""
 
@@ -102,6 +106,11 @@ class TensorDemonstrations:
     def actions(self) -> Float[Tensor, "D 2"]:
         """Every action, in order of index, shape (D, 2) [-]."""
         return self._data.actions
+
+    @property
+    def states(self) -> Float[Tensor, "D 3"]:
+        """Every speed [m/s], previous acceleration and previous steering [-], in order of index."""
+        return self._data.state
 
     def batch(self, indices: Int[Tensor, " B"]) -> Batch:
         """The pairs at some indices, in their order."""

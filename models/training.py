@@ -15,6 +15,7 @@ from models.config import LearnerConfig, OptimiserConfig
 from models.density import action_density, inverse_weights
 from models.distributed import ALONE, Team, sum_over
 from models.errors import CheckpointError, TrainingError
+from models.evenness import speed_weights
 from models.interfaces import Batch, Chance, Demonstrations, Learner
 from models.progress import EpochReport, StepReport
 from models.samplers.draws import draw_categorical
@@ -143,6 +144,7 @@ class _Run:
         actions = self.actions[: self.num_training]
         density = action_density(actions, learner.config.density)
         self.weights = inverse_weights(density, learner.config.density).cpu()
+        self.speeds = demonstrations.states[: self.num_training, 0].cpu()
         learner.prepare(actions, density)
         learner.to(device).train()
         self.state = TrainingState(learner, self.settings)
@@ -180,9 +182,13 @@ class _Run:
     def _order(self, epoch: int) -> Tensor:
         """Indices of the pairs of one epoch: each once, or drawn by weight with replacement."""
         generator = torch.Generator().manual_seed(epoch_seed(self.seed, epoch, 1))
-        if self.learner.config.density.weighting != "sampler":
+        density, evenness = self.learner.config.density, self.learner.config.evenness
+        if density.weighting != "sampler" and evenness.speed_exponent == 0:
             return torch.randperm(self.num_training, generator=generator)
-        return draw_categorical(self.weights[None], self.num_training, generator=generator)[0]
+        weights = speed_weights(self.speeds, evenness)
+        if density.weighting == "sampler":
+            weights = weights * self.weights
+        return draw_categorical(weights[None], self.num_training, generator=generator)[0]
 
     def _minibatches(self, order: Tensor, epoch: int, *, is_training: bool) -> Iterator[_Minibatch]:
         """Cut an order of pairs into minibatches and draw what chance decides about each."""

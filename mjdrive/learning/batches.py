@@ -53,6 +53,11 @@ class PackedDemonstrations:
         """Every clean expert action: acceleration and steering [-]."""
         return self._actions
 
+    @property
+    def states(self) -> Float[Tensor, "D 3"]:
+        """The state part of every observation: speed [m/s], previous acceleration and previous steering [-]."""
+        return self._states
+
     def batch(self, indices: Int[Tensor, " B"]) -> Batch:
         """The pairs at some indices, in their order."""
         bev = _unpack(self._codes[indices], self._table)

@@ -1,5 +1,6 @@
 """Every setting of the learners, among them each ambiguity of the paper; presets are in `models.presets`."""
 
+from models.config.evenness import EvennessConfig
 from models.config.explicit import BetaConfig, CategoricalConfig, MixtureConfig
 from models.config.generative import DenoiserConfig, DiffusionConfig, FlowConfig
 from models.config.implicit import DensityConfig, DensityKind, NegativesConfig
@@ -21,6 +22,7 @@ __all__ = [
     "DensityKind",
     "DfoConfig",
     "DiffusionConfig",
+    "EvennessConfig",
     "FlowConfig",
     "GridConfig",
     "LangevinConfig",

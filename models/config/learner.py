@@ -4,6 +4,7 @@ import dataclasses
 from typing import Literal, get_args
 
 from models.config.checks import require
+from models.config.evenness import EvennessConfig
 from models.config.explicit import BetaConfig, CategoricalConfig, MixtureConfig
 from models.config.generative import DenoiserConfig, DiffusionConfig, FlowConfig
 from models.config.implicit import DensityConfig, NegativesConfig
@@ -36,6 +37,7 @@ class LearnerConfig:
         negatives: Negatives of IBC and DA-IBC.
         langevin_negatives: Chains and gradient penalty of Langevin IBC.
         density: Kernel density estimate and what it weighs.
+        evenness: How evenly training draws what was seen.
         sampler: How IBC and DA-IBC choose actions.
         optimiser: How the loss is descended on.
     """
@@ -53,6 +55,7 @@ class LearnerConfig:
         default_factory=LangevinNegativesConfig
     )
     density: DensityConfig = dataclasses.field(default_factory=DensityConfig)
+    evenness: EvennessConfig = dataclasses.field(default_factory=EvennessConfig)
     sampler: SamplerConfig = dataclasses.field(default_factory=SamplerConfig)
     optimiser: OptimiserConfig = dataclasses.field(default_factory=OptimiserConfig)
 
