@@ -1,7 +1,7 @@
 """`mjdrive train`: learn a policy from demonstrations."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import rich_click as click
 
@@ -57,6 +57,13 @@ if TYPE_CHECKING:
     metavar="auto|cpu|cuda|cuda:N",
     help="Where to train; auto takes a GPU where there is one.",
 )
+@click.option(
+    "--views",
+    type=click.Choice(["auto", "memory", "live"]),
+    default="auto",
+    show_default=True,
+    help="Where the views are meanwhile: in memory, drawn when they are needed, or, with auto, in memory up to 2 GiB. The weights are the same.",
+)
 def train(
     *,
     method: str,
@@ -68,6 +75,7 @@ def train(
     resume: bool,
     overwrite: bool,
     device: str,
+    views: Literal["auto", "memory", "live"],
 ) -> None:
     """Train a policy on demonstrations.
 
@@ -110,6 +118,7 @@ def train(
             resume=resume,
             overwrite=overwrite,
             device=device,
+            views=views,
             team=team,
             on_note=bars.console.print if team.leads else None,
             on_frame=lambda done, total: bars.update(

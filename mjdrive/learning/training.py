@@ -9,7 +9,7 @@ from mjdrive.config import read_json, write_json
 from mjdrive.episodes import dataset
 from mjdrive.errors import RunError
 from mjdrive.learning import runs
-from mjdrive.learning.batches import PackedDemonstrations
+from mjdrive.learning.batches import EpisodeDemonstrations, Views, demonstrations_of
 from mjdrive.town import library
 from mjdrive.vehicle.cars import DEFAULT
 from mjdrive.versions import versions
@@ -80,6 +80,7 @@ def train(
     resume: bool = False,
     overwrite: bool = False,
     device: str = "auto",
+    views: Views = "auto",
     team: Team = ALONE,
     on_note: Callable[[str], None] | None = None,
     on_frame: Callable[[int, int], None] | None = None,
@@ -96,9 +97,10 @@ def train(
         resume: Whether to go on from the last complete epoch in `run`.
         overwrite: Whether a run that is in `run` is replaced, once the new one is ready for its first step.
         device: Where to train: "auto" for a GPU where there is one, or "cpu", "cuda", "cuda:1".
+        views: Where the views are meanwhile: in memory, drawn when they are needed, or whichever suits their number.
         team: The processes that train together, from `find_team()`; the first one writes.
         on_note: Told in a line where and in which number format training goes on.
-        on_frame: Told how many of how many views are drawn.
+        on_frame: Told how many of how many views are drawn, where all are at the start.
         on_step: Told about each step.
         on_epoch: Told about each epoch once its checkpoint is complete.
 
@@ -121,7 +123,7 @@ def train(
             on_note(precision.in_words(config, device=place, resumes=resume))
         agreement.require_shares(team, config.optimiser.batch_size)
         with distributed.joined(team, place):
-            demonstrations, source = _read(data, on_frame)
+            demonstrations, source = _read(data, views, on_frame)
             if resume:
                 source.require_same(read_json(Source, run / runs.SOURCE), run)
             return fit(
@@ -149,14 +151,15 @@ def _begin(run: Path, source: Source, *, replaces: bool) -> None:
 
 
 def _read(
-    data: Path, on_frame: Callable[[int, int], None] | None
-) -> tuple[PackedDemonstrations, Source]:
-    """Read a data set and draw what the expert saw."""
+    data: Path, views: Views, on_frame: Callable[[int, int], None] | None
+) -> tuple[EpisodeDemonstrations, Source]:
+    """Read a data set and make ready what the expert saw."""
     manifest, episodes = dataset.read_dataset(data)
     total = sum(entry.steps for entry in manifest.episodes)
-    demonstrations = PackedDemonstrations(
+    demonstrations = demonstrations_of(
         episodes,
         library.load(manifest.town),
+        views=views,
         on_frame=on_frame and (lambda done: on_frame(done, total)),
     )
     return demonstrations, Source(

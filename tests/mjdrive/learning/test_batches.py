@@ -2,11 +2,16 @@ import numpy as np
 import pytest
 import torch
 
-from mjdrive.bev import layers
 from mjdrive.bev.projector import BevProjector
 from mjdrive.datatypes import Episode, Town
 from mjdrive.errors import DataError
-from mjdrive.learning.batches import PackedDemonstrations, _pair_table, _unpack, states
+from mjdrive.learning import batches
+from mjdrive.learning.batches import (
+    LiveDemonstrations,
+    PackedDemonstrations,
+    demonstrations_of,
+    states,
+)
 from mjdrive.town import routing
 
 LENGTH = 6
@@ -70,13 +75,25 @@ def test_batches_hold_the_views_of_the_projector_bit_by_bit(episode: Episode, to
     np.testing.assert_allclose(batch.actions, episode.labels[[4, 1]], rtol=1e-6)
 
 
-def test_every_code_is_unpacked_as_the_layers_do() -> None:
-    rng = np.random.default_rng(0)
-    codes = rng.integers(0, 256, (3, 192, 192), dtype=np.uint8)
-    codes[0].flat[:512] = np.arange(512) % 256
-    found = _unpack(torch.from_numpy(codes), _pair_table())
-    np.testing.assert_array_equal(found, layers.unpack(codes))
-    assert found.is_contiguous(memory_format=torch.channels_last)
+def test_views_drawn_when_they_are_needed_are_those_that_lie_in_memory(
+    episode: Episode, town02: Town
+) -> None:
+    indices = torch.tensor([7, 0, 7, 3])
+    kept = PackedDemonstrations([episode, episode], town02).batch(indices)
+    live = LiveDemonstrations([episode, episode], town02).batch(indices)
+    for ours, theirs in zip(live, kept, strict=True):
+        assert torch.equal(ours, theirs)
+        assert ours.stride() == theirs.stride()
+
+
+def test_views_lie_in_memory_unless_they_are_too_many(
+    episode: Episode, town02: Town, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert isinstance(demonstrations_of([episode], town02), PackedDemonstrations)
+    assert isinstance(demonstrations_of([episode], town02, views="live"), LiveDemonstrations)
+    monkeypatch.setattr(batches, "MOST_IN_MEMORY", LENGTH * 192 * 192 - 1)
+    assert isinstance(demonstrations_of([episode], town02), LiveDemonstrations)
+    assert isinstance(demonstrations_of([episode], town02, views="memory"), PackedDemonstrations)
 
 
 def test_progress_counts_every_view(episode: Episode, town02: Town) -> None:
