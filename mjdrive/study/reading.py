@@ -10,7 +10,7 @@ from mjdrive.study.results import DrivenPath, LandscapeRecord, StudyRecord, Stud
 
 
 @dataclass(frozen=True, slots=True)
-class Study:
+class StudyFiles:
     """What the JSON files of a study hold.
 
     Attributes:
@@ -28,7 +28,7 @@ class Study:
     fans: tuple[FanRecord, ...]
 
 
-def read_study(folder: Path) -> Study:
+def read_study(folder: Path) -> StudyFiles:
     """Read a study.
 
     Args:
@@ -38,7 +38,7 @@ def read_study(folder: Path) -> Study:
         ConfigError: If a file is missing or does not hold what it should.
     """
     found = read_json(StudyResults, folder / results.RESULTS)
-    return Study(
+    return StudyFiles(
         record=read_json(StudyRecord, folder / results.STUDY),
         results=found,
         landscapes=tuple(read_json(LandscapeRecord, folder / name) for name in found.landscapes),
