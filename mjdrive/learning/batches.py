@@ -2,7 +2,7 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from typing import Literal, Self
+from typing import Literal
 
 import numpy as np
 import torch
@@ -65,7 +65,7 @@ class EpisodeDemonstrations(ABC):
         bev = unpack(self._packed(indices), self._table)
         return Batch(bev, self._states[indices], self._actions[indices])
 
-    def to(self, device: torch.device) -> Self:
+    def to(self, device: torch.device) -> "EpisodeDemonstrations":
         """Move everything to a device, in place, so that batches are unpacked there."""
         self._table = self._table.to(device)
         self._states = self._states.to(device)
@@ -99,7 +99,7 @@ class PackedDemonstrations(EpisodeDemonstrations):
         super().__init__(episodes, town)
         self._codes = _drawn(BevProjector(town), _moments(episodes), on_frame)
 
-    def to(self, device: torch.device) -> Self:
+    def to(self, device: torch.device) -> "EpisodeDemonstrations":
         """Move everything to a device, in place, so that batches are unpacked there."""
         self._codes = self._codes.to(device)
         return super().to(device)
