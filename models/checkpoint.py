@@ -23,6 +23,7 @@ from torch import Tensor
 
 from models.config import LearnerConfig
 from models.errors import CheckpointError, SettingError
+from models.half_precision import widened
 from models.interfaces import Learner
 from models.learners import build_learner
 from models.serialization import from_json, to_json
@@ -145,6 +146,7 @@ def load(folder: Path, *, device: torch.device | str = "cpu") -> Learner:
     """
     learner = build_learner(load_config(folder), seed=0)
     tensors, _ = read_tensors(folder / MODEL, device=torch.device("cpu"))
+    tensors = widened(tensors)  # shipped weights may be float16
     try:
         learner.load_state_dict(tensors)
     except RuntimeError as error:

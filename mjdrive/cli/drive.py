@@ -17,6 +17,17 @@ RUNS = Path("runs")
 DRIVES = Path("drives")
 
 
+def _list_shipped(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+    """Print a table of the shipped policies, and nothing else, if that is asked for."""
+    if value == "zoo:" and not ctx.resilient_parsing:
+        from mjdrive.cli.policy_tables import shipped_table
+        from mjdrive.zoo import entries
+
+        shipped_table(entries.FOLDER)
+        ctx.exit()
+    return value
+
+
 @click.command()
 @click.option("--town", "town_name", required=True, metavar="NAME", help="Town to drive in.")
 @click.option(
@@ -30,8 +41,11 @@ DRIVES = Path("drives")
 @click.option(
     "--policy",
     "policy_name",
-    metavar="RUN|pid|mpc|NAME",
-    help="A run folder, the name of one in runs/, or an expert. [default: the newest run]",
+    metavar="RUN|pid|mpc|zoo:NAME",
+    is_eager=True,
+    callback=_list_shipped,
+    help="A run folder, the name of one in runs/, an expert, or a policy that comes with mjdrive; zoo: lists these. "
+    "[default: the newest run, zoo:da-ibc where there is none]",
 )
 @click.option(
     "--preset",
@@ -95,7 +109,9 @@ def drive(
 
     car = cars.load(car_name)
     town = library.load(town_name)
-    driver = find_driver(policy_name, RUNS, preset=preset)
+    driver = find_driver(
+        policy_name, RUNS, preset=preset, on_note=lambda note: click.echo(note, err=True)
+    )
     if gains is not None:
         driver = driver.tuned(gains, car)
     driver = driver.solved_by(solver, fallback_solver)

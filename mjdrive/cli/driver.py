@@ -157,18 +157,26 @@ class Driver:
         )
 
 
-def find_driver(name: str | None, runs: Path, *, preset: str | None = None) -> Driver:
+def find_driver(
+    name: str | None,
+    runs: Path,
+    *,
+    preset: str | None = None,
+    on_note: Callable[[str], None] = lambda note: None,
+) -> Driver:
     """Find out who shall drive.
 
     Args:
-        name: "pid", "mpc", a run folder, the name of a folder in `runs`, or None for the newest of them.
+        name: "pid", "mpc", a run folder, the name of a folder in `runs`, a shipped policy as "zoo:da-ibc", or None for
+            the newest run and, where there is none, the shipped policy that drives by default.
         runs: Folder of run folders.
         preset: How a trained policy chooses its actions; as it was trained to if None.
+        on_note: Told in a line who drives if that may surprise.
 
     Raises:
         ConfigError: If there is no such preset, or it has no effect.
         UnknownNameError: If there is no such policy.
-        RunError: If the folder is no run, or there is no run at all.
+        RunError: If the folder is no run, or damaged.
     """
     if name in experts.NAMES:
         if preset is not None:
@@ -181,8 +189,8 @@ def find_driver(name: str | None, runs: Path, *, preset: str | None = None) -> D
     from mjdrive.learning.training import Source
     from models import checkpoint, serialization
 
-    folder = run_folders.newest(runs) if name is None else run_folders.find(name, runs)
-    policy = pilot.load(folder, preset=preset)
+    folder, name = _find_run(name, runs, on_note)
+    policy = pilot.load(folder, name=name, preset=preset)
     source = config.read_json(Source, folder / run_folders.SOURCE)
     return Driver(
         policy.name,
@@ -191,6 +199,24 @@ def find_driver(name: str | None, runs: Path, *, preset: str | None = None) -> D
         pilot=policy,
         learnt_cars=source.cars,
     )
+
+
+def _find_run(
+    name: str | None, runs: Path, on_note: Callable[[str], None]
+) -> tuple[Path, str | None]:
+    """Folder of a trained policy, and what it is called if not as its folder."""
+    from mjdrive.learning import runs as run_folders
+    from mjdrive.zoo import entries
+
+    if name is None:
+        newest = run_folders.newest(runs)
+        if newest is not None:
+            return newest, None
+        name = entries.PREFIX + entries.DEFAULT
+        on_note(f"There is no trained run in '{runs}', so {name} drives, which comes with mjdrive.")
+    if name.startswith(entries.PREFIX):
+        return entries.find(name), name
+    return run_folders.find(name, runs, others=entries.full_names()), None
 
 
 def _expert_driver(expert: CollectConfig) -> Driver:

@@ -60,17 +60,22 @@ class Pilot:
 
 
 def load(
-    run: Path, *, preset: str | None = None, device: torch.device | str | None = None
+    run: Path,
+    *,
+    name: str | None = None,
+    preset: str | None = None,
+    device: torch.device | str | None = None,
 ) -> Pilot:
     """Load the policy of a training run.
 
     Args:
-        run: Folder that `mjdrive train` made.
+        run: Folder that `mjdrive train` made, or that of a shipped policy.
+        name: How summaries call it; as the folder if None.
         preset: Whose way to choose actions to take; the run's own if None.
         device: Where it acts; a GPU where there is one, else the CPU, if None.
 
     Returns:
-        The policy, named after the folder.
+        The policy.
 
     Raises:
         RunError: If the folder is no run, or a file of it is damaged.
@@ -82,4 +87,4 @@ def load(
         raise RunError(str(error)) from error
     if preset is not None:
         learner.config = acting_settings(learner.config, preset=preset)
-    return Pilot(learner, name=run.resolve().name, device=device)
+    return Pilot(learner, name=name or run.resolve().name, device=device)

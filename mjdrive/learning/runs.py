@@ -1,5 +1,6 @@
 """Run folders: which there are, and which may be written to."""
 
+from collections.abc import Iterable
 from pathlib import Path
 
 from mjdrive.errors import RunError, UnknownNameError
@@ -23,30 +24,27 @@ def is_run(folder: Path) -> bool:
     return (folder / checkpoint.STATE).is_file()
 
 
-def newest(runs: Path) -> Path:
-    """Find the run that was trained last.
+def newest(runs: Path) -> Path | None:
+    """Find the run that was trained last; None if there is none.
 
     Args:
         runs: Folder of run folders.
-
-    Raises:
-        RunError: If there is none.
     """
     found = [folder for folder in runs.glob("*") if is_run(folder)]
-    if not found:
-        raise RunError(
-            f"There is no trained run in '{runs}'. Train one with `mjdrive train da-ibc`, "
-            f"give a run folder with --policy, or let the expert drive with `--policy pid`."
-        )
-    return max(found, key=lambda folder: ((folder / checkpoint.STATE).stat().st_mtime_ns, folder))
+    return max(
+        found,
+        key=lambda folder: ((folder / checkpoint.STATE).stat().st_mtime_ns, folder),
+        default=None,
+    )
 
 
-def find(name: str, runs: Path) -> Path:
+def find(name: str, runs: Path, *, others: Iterable[str] = ()) -> Path:
     """Find a run by its folder or by its name.
 
     Args:
         name: A folder, or the name of a folder in `runs`.
         runs: Folder of run folders.
+        others: Policies besides runs and experts that the user may have meant.
 
     Raises:
         UnknownNameError: If there is neither.
@@ -54,7 +52,7 @@ def find(name: str, runs: Path) -> Path:
     for folder in (Path(name), runs / name):
         if folder.is_dir():
             return folder
-    known = {folder.name for folder in runs.glob("*") if is_run(folder)} | set(experts.NAMES)
+    known = {folder.name for folder in runs.glob("*") if is_run(folder)} | {*experts.NAMES, *others}
     raise UnknownNameError("policy", name, known, hint="A run folder will do, too.")
 
 

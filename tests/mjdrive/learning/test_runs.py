@@ -22,9 +22,8 @@ def test_newest_is_the_run_trained_last(tmp_path: Path) -> None:
     assert runs.newest(tmp_path) == wanted
 
 
-def test_no_run_says_how_to_train_one(tmp_path: Path) -> None:
-    with pytest.raises(RunError, match=r"mjdrive train da-ibc.*--policy pid"):
-        runs.newest(tmp_path / "runs")
+def test_there_is_no_newest_run_where_nobody_trained(tmp_path: Path) -> None:
+    assert runs.newest(tmp_path / "runs") is None
 
 
 def test_runs_are_found_by_name_and_by_folder(tmp_path: Path) -> None:
@@ -37,6 +36,11 @@ def test_unknown_name_is_refused_with_the_nearest(tmp_path: Path) -> None:
     make_run(tmp_path / "da-ibc")
     with pytest.raises(UnknownNameError, match=r"Known: da-ibc, mpc, pid. Did you mean 'da-ibc'"):
         runs.find("da-icb", tmp_path)
+
+
+def test_a_shipped_policy_is_suggested_to_who_trained_none(tmp_path: Path) -> None:
+    with pytest.raises(UnknownNameError, match="Did you mean 'zoo:da-ibc'"):
+        runs.find("da-ibc", tmp_path, others=["zoo:da-ibc"])
 
 
 def test_a_run_is_not_free_until_it_is_removed(tmp_path: Path) -> None:

@@ -1,0 +1,46 @@
+"""The command that trains a run again, from the settings that it left."""
+
+import json
+import shlex
+from pathlib import Path
+from typing import Any
+
+from models import presets, serialization
+from models.config import LearnerConfig
+
+
+def training_command(config: LearnerConfig, *, seed: int, data: Path) -> str:
+    """Find the shortest call of `mjdrive train` that has some settings.
+
+    Args:
+        config: The settings.
+        seed: Of the run.
+        data: Folder that the demonstrations will be in.
+    """
+    found = {
+        name: _changes(presets.preset(name, config.method), config) for name in presets.PRESETS
+    }
+    preset = min(found, key=lambda name: (len(found[name]), name != "standard"))
+    words = ["mjdrive", "train", config.method, "--data", str(data), "--seed", str(seed)]
+    if preset != "standard":
+        words += ["--preset", preset]
+    for change in found[preset]:
+        words += ["--set", change]
+    return shlex.join(words)
+
+
+def _changes(preset: LearnerConfig, config: LearnerConfig) -> list[str]:
+    """Settings that differ from a preset, as --set takes them."""
+    before, after = (_flat(json.loads(serialization.to_json(it))) for it in (preset, config))
+    return [f"{name}={after[name]}" for name in after if after[name] != before[name]]
+
+
+def _flat(values: dict[str, Any], prefix: str = "") -> dict[str, str]:
+    """Each setting as --set reads it, by its dotted name: a string without quotes, all else as JSON."""
+    flat: dict[str, str] = {}
+    for name, value in values.items():
+        if isinstance(value, dict):
+            flat |= _flat(value, f"{prefix}{name}.")
+        else:
+            flat[prefix + name] = value if isinstance(value, str) else json.dumps(value)
+    return flat
