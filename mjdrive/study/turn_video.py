@@ -24,7 +24,7 @@ FRAMES_PER_SECOND = 10
 LONGEST = 8.0
 """The turn is over by then [s]."""
 
-POINTS = 49
+POINTS = 33
 """Grid points of the landscapes along each action component [-]; they are drawn smoothly between them."""
 
 MIDDLE_AHEAD = 20.0
