@@ -42,7 +42,7 @@ STUDIES = Path("studies")
     "as da-ibc:optimiser.epochs=5. May be given again.",
 )
 @click.option(
-    "--ablations/--no-ablations", default=True, help="Whether DA-IBC is taken apart, too."
+    "--no-ablations", "without_ablations", is_flag=True, help="Compare the methods alone."
 )
 @click.option(
     "--data",
@@ -78,7 +78,7 @@ def study(
     episodes: int | None,
     steps: int | None,
     assignments: tuple[str, ...],
-    ablations: bool,
+    without_ablations: bool,
     data: tuple[str, ...],
     runs: Path | None,
     jobs: int,
@@ -103,7 +103,7 @@ def study(
         episodes=episodes,
         steps=steps,
         assignments=assignments,
-        ablations=ablations,
+        ablations=not without_ablations,
     )
     folder = out or report.new_folder(STUDIES, datetime.datetime.now())
     work = Study(

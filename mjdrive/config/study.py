@@ -61,6 +61,7 @@ class Arm:
         label: What tables and figures call it.
         acting: Changes to the settings that the variant was trained with, each as "sampler.kind=grid".
         change: What sets an ablation apart, in words; empty for an arm of the study itself.
+        all_seeds: Whether the agents of all training seeds act so, or those of `StudyConfig.detail_seeds` alone.
     """
 
     name: str
@@ -68,6 +69,7 @@ class Arm:
     label: str
     acting: tuple[str, ...] = ()
     change: str = ""
+    all_seeds: bool = True
 
 
 @dataclass(frozen=True, slots=True)

@@ -65,6 +65,7 @@ def arm_agents(config: StudyConfig) -> tuple[ArmAgent, ...]:
         for agent in trained
         if agent.variant.name == arm.variant
         and (not arm.change or agent.seed in config.ablation_seeds)
+        and (arm.all_seeds or agent.seed in config.detail_seeds)
     )
 
 

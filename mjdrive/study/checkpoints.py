@@ -82,19 +82,16 @@ def find_run(agent: Agent, trained: Path) -> Path | None:
     return None
 
 
-def require_planned(
-    run: Path, agent: Agent, config: LearnerConfig, *, manifest_sha256: str
-) -> None:
+def require_planned(run: Path, agent: Agent, config: LearnerConfig) -> None:
     """Refuse a run that is not what the study says of it.
 
     Args:
         run: Run folder.
         agent: Whose it is.
         config: Settings that the study has for it.
-        manifest_sha256: Digest of the data set that the study has for it, hexadecimal.
 
     Raises:
-        RunError: If it was trained with other settings, with another seed or on other data.
+        RunError: If it was trained with other settings or another seed.
     """
     try:
         found, state = checkpoint.load_config(run), checkpoint.load_state(run)
@@ -108,6 +105,19 @@ def require_planned(
             f"The run '{run}' was trained with other settings than the study has for {agent.name}: "
             f"{', '.join(differing)}. Change those of the study with --set, or leave the run out and let it be trained."
         )
+
+
+def require_trained_on(run: Path, agent: Agent, *, manifest_sha256: str) -> None:
+    """Refuse a run that has learnt from something else than the study says.
+
+    Args:
+        run: Run folder.
+        agent: Whose it is.
+        manifest_sha256: Digest of the data set that the study has for it, hexadecimal.
+
+    Raises:
+        RunError: If it was trained on other data.
+    """
     if read_json(Source, run / runs.SOURCE).manifest_sha256 != manifest_sha256:
         raise RunError(
             f"The run '{run}' was trained on another data set than the study has for {agent.name}. Give its data set "

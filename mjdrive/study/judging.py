@@ -141,7 +141,7 @@ def read_record(job: JudgeJob) -> JudgeRecord | None:
     if found is None or found.digest != job.who.digest:
         return None
     is_whole = job.landscapes is None or all(
-        (job.landscapes / name).is_file() for name in found.landscapes
+        folder.is_written(LandscapeRecord, job.landscapes / name) for name in found.landscapes
     )
     return found if is_whole else None
 

@@ -11,7 +11,8 @@ from models.config import METHODS
 UNDISTURBED = Demonstrations("undisturbed", preset="paper")
 """Demonstrations without disturbances, as the paper's."""
 
-_GRID = "sampler.kind=grid"
+_GRID_SAMPLED = ("sampler.kind=grid", "sampler.grid.choice=sample")
+_GRID_LOWEST = ("sampler.kind=grid", "sampler.grid.choice=argmin")
 _DFO = (
     "sampler.kind=dfo",
     "sampler.dfo.num_samples=16384",
@@ -22,32 +23,35 @@ _DFO = (
 )
 _PAPERS_DFO = (*_DFO, "sampler.dfo.temper=false", "sampler.dfo.choice=sample")
 
+_TEMPERED_DFO = (
+    *_DFO,
+    "sampler.dfo.num_samples=2048",
+    "sampler.dfo.temper=true",
+    "sampler.dfo.choice=sample",
+)
+
+
+def _aside(name: str, variant: str, label: str, *acting: str) -> Arm:
+    """A way to act that is looked at with one agent."""
+    return Arm(name, variant, label, acting, all_seeds=False)
+
+
 ARMS = (
     Arm("bc-beta-mode", "bc-beta", "BC-Beta, mode", ("beta.inference=mode",)),
-    Arm("bc-beta-mean", "bc-beta", "BC-Beta, mean", ("beta.inference=mean",)),
     Arm("bc-beta-sample", "bc-beta", "BC-Beta, sampled", ("beta.inference=sample",)),
+    _aside("bc-beta-mean", "bc-beta", "BC-Beta, mean", "beta.inference=mean"),
     Arm("bc-mixture-sample", "bc-mixture", "BC mixture, sampled", ("beta.inference=sample",)),
-    Arm("bc-mixture-mode", "bc-mixture", "BC mixture, mode", ("beta.inference=mode",)),
+    _aside("bc-mixture-mode", "bc-mixture", "BC mixture, mode", "beta.inference=mode"),
     Arm("bc-grid-sample", "bc-grid", "BC grid, sampled", ("categorical.choice=sample",)),
-    Arm("bc-grid-argmax", "bc-grid", "BC grid, densest", ("categorical.choice=argmax",)),
-    Arm("ibc-sample", "ibc", "IBC, grid sampled", (_GRID, "sampler.grid.choice=sample")),
-    Arm("ibc-argmin", "ibc", "IBC, grid lowest", (_GRID, "sampler.grid.choice=argmin")),
-    Arm("da-ibc-sample", "da-ibc", "DA-IBC, grid sampled", (_GRID, "sampler.grid.choice=sample")),
-    Arm("da-ibc-argmin", "da-ibc", "DA-IBC, grid lowest", (_GRID, "sampler.grid.choice=argmin")),
+    _aside("bc-grid-argmax", "bc-grid", "BC grid, densest", "categorical.choice=argmax"),
+    Arm("ibc-sample", "ibc", "IBC, grid sampled", _GRID_SAMPLED),
+    _aside("ibc-argmin", "ibc", "IBC, grid lowest", *_GRID_LOWEST),
+    Arm("da-ibc-sample", "da-ibc", "DA-IBC, grid sampled", _GRID_SAMPLED),
+    Arm("da-ibc-argmin", "da-ibc", "DA-IBC, grid lowest", _GRID_LOWEST),
     Arm("da-ibc-dfo", "da-ibc", "DA-IBC, the paper's DFO", _PAPERS_DFO),
-    Arm(
-        "da-ibc-tempered",
-        "da-ibc",
-        "DA-IBC, tempered DFO",
-        (*_DFO, "sampler.dfo.num_samples=2048", "sampler.dfo.temper=true"),
-    ),
+    _aside("da-ibc-tempered", "da-ibc", "DA-IBC, tempered DFO", *_TEMPERED_DFO),
     Arm("ibc-langevin-chain", "ibc-langevin", "Langevin IBC, chains", ("sampler.kind=langevin",)),
-    Arm(
-        "ibc-langevin-sample",
-        "ibc-langevin",
-        "Langevin IBC, grid sampled",
-        (_GRID, "sampler.grid.choice=sample"),
-    ),
+    _aside("ibc-langevin-sample", "ibc-langevin", "Langevin IBC, grid sampled", *_GRID_SAMPLED),
     Arm("diffusion-sample", "diffusion", "Diffusion"),
     Arm("flow-sample", "flow", "Flow matching"),
 )
@@ -107,7 +111,8 @@ def standard(methods: Sequence[str] | None = None) -> StudyConfig:
             *(ACTING_ABLATIONS if ablated else ()),
         ),
         demonstrations=(Demonstrations("demonstrations"), *((UNDISTURBED,) if ablated else ())),
-        progress_every=2,
+        progress_every=3,
+        forks=1,
     )
 
 

@@ -96,8 +96,13 @@ class Study:
             raise DataError(
                 f"There is no folder '{self.trained}'; expected one with trained runs. Give another one with --runs."
             )
-        found = {it.name: checkpoints.find_run(it, self.trained) for it in agents(self.config)}
-        return {name: run for name, run in found.items() if run is not None}
+        found = {}
+        for it in agents(self.config):
+            run = checkpoints.find_run(it, self.trained)
+            if run is not None:
+                checkpoints.require_planned(run, it, learner_config(it.variant))
+                found[it.name] = run
+        return found
 
     def _record(self, given: Mapping[str, Path]) -> StudyRecord:
         names = sorted({self.config.town, self.config.learning_town})
@@ -155,8 +160,8 @@ class Study:
             run = runs[it.name] = given.get(it.name, self._names.run(it.name))
             name = it.variant.demonstrations
             if checkpoints.is_complete(run):
-                settings = learner_config(it.variant)
-                checkpoints.require_planned(run, it, settings, manifest_sha256=digests[name])
+                checkpoints.require_planned(run, it, learner_config(it.variant))
+                checkpoints.require_trained_on(run, it, manifest_sha256=digests[name])
             else:
                 jobs.append(self._training_job(it, data[name], run, samples[name]))
         report = stage("train", len(jobs))

@@ -22,6 +22,7 @@ PAGES = [
         "docs/car.md",
         "docs/cars.md",
         "docs/experts.md",
+        "docs/study.md",
     )
 ]
 

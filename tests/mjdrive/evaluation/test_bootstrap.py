@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mjdrive.evaluation.bootstrap import interquartile_mean, interval, mean
+from mjdrive.evaluation.bootstrap import interquartile_mean, interval, mean, ratio_interval
 
 
 @pytest.mark.parametrize(("num_seeds", "least"), [(3, 0.68), (5, 0.78), (20, 0.9)])
@@ -63,3 +63,19 @@ def test_draws_of_a_batch_are_judged_one_by_one() -> None:
     for statistic in (mean, interquartile_mean):
         np.testing.assert_allclose(statistic(batch), [float(statistic(it)) for it in batch])
         assert float(statistic(np.full((3, 5), 2.0))) == pytest.approx(2.0)
+
+
+def test_a_ratio_to_itself_is_one_and_its_interval_holds_the_chance_of_both() -> None:
+    rng = np.random.default_rng(5)
+    figures = rng.normal(10.0, 1.0, size=(3, 10))
+    found = ratio_interval(figures, figures, rng=np.random.default_rng(0))
+    assert found.value == 1.0
+    against_a_number = ratio_interval(figures, np.full((1, 1), 10.0), rng=np.random.default_rng(0))
+    assert found.low < against_a_number.low < 1.0 < against_a_number.high < found.high
+
+
+def test_a_ratio_has_no_unit() -> None:
+    figures = np.random.default_rng(6).normal(10.0, 1.0, size=(2, 4))
+    metres = ratio_interval(figures, figures + 1, rng=np.random.default_rng(0))
+    feet = ratio_interval(3.28 * figures, 3.28 * (figures + 1), rng=np.random.default_rng(0))
+    assert np.allclose((metres.value, metres.low, metres.high), (feet.value, feet.low, feet.high))

@@ -63,6 +63,18 @@ def test_ablations_of_acting_need_no_training_and_fewer_seeds() -> None:
     assert len([it for it in arm_agents(study) if it.arm.name == "da-ibc-sample"]) == 3
 
 
+def test_ways_to_act_that_are_aside_are_looked_at_with_one_agent() -> None:
+    study = chosen("standard", methods=["bc-beta"], seeds=[5, 6])
+    names = [it.name for it in arm_agents(study)]
+    assert names == [
+        "bc-beta-mode-5",
+        "bc-beta-mode-6",
+        "bc-beta-sample-5",
+        "bc-beta-sample-6",
+        "bc-beta-mean-5",
+    ]
+
+
 def test_each_variant_has_one_main_arm() -> None:
     main = [it.arm for it in arm_agents(chosen("standard", seeds=[0])) if it.is_main]
     assert len(main) == len({arm.variant for arm in main}) == len(chosen("standard").variants)

@@ -1,0 +1,35 @@
+"""`mjdrive study`: what it refuses before anything runs."""
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from mjdrive.cli.main import main
+
+
+def refused(tmp_path: Path, *options: str) -> str:
+    out = tmp_path / "study"
+    result = CliRunner().invoke(main, ["study", "--preset", "quick", "--out", str(out), *options])
+    assert result.exit_code == 2
+    assert not out.exists(), "nothing was begun"
+    return " ".join(result.output.split())
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--preset", "slow"), "Unknown study preset 'slow'"),
+        (("--methods", "bc-beta,da-ibb"), "Did you mean 'da-ibc'"),
+        (("--seeds", "one"), "'one' is no seed"),
+        (("--set", "long_step=3"), "Did you mean 'long_steps'"),
+        (("--set", "optimiser.epochs=0"), "epochs is 0"),
+        (("--data", "nowhere"), "Data folder 'nowhere' does not exist"),
+        (("--runs", "nowhere"), "There is no folder 'nowhere'"),
+    ],
+)
+def test_mistakes_are_refused_before_anything_runs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, options: tuple[str, ...], said: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert said in refused(tmp_path, *options)
