@@ -34,7 +34,14 @@ def _stand_ins(monkeypatch):
 @pytest.mark.usefixtures("_stand_ins")
 @pytest.mark.parametrize("precision", ["float32", "bfloat16"])
 @pytest.mark.parametrize(
-    ("method", "kind"), [("da-ibc", "dfo"), ("da-ibc", "grid"), ("bc-beta", "grid")]
+    ("method", "kind"),
+    [
+        ("da-ibc", "dfo"),
+        ("da-ibc", "grid"),
+        ("da-ibc", "langevin"),
+        ("ibc-langevin", "langevin"),
+        ("bc-beta", "grid"),
+    ],
 )
 def test_actions_are_chosen_where_the_weights_lie(method, kind, precision):
     config = presets.paper(method)
