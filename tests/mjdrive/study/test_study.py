@@ -19,6 +19,10 @@ from mjdrive.study.results import RESULTS, StudyRecord, StudyResults
 from mjdrive.study.study import Study
 from mjdrive.town import library
 
+pytestmark = pytest.mark.timeout(
+    900
+)  # whole studies, one after the other, on a machine that may be busy
+
 STAGES = ("collect", "train", "drive", "live moments again", "judge")
 TIMES = ("metrics.jsonl",)
 """Files that tell how long something took, which is never twice the same."""
