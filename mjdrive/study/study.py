@@ -17,7 +17,7 @@ from mjdrive.study.agents import Agent, agents, learner_config, require_buildabl
 from mjdrive.study.assembling import assemble
 from mjdrive.study.collecting import collections
 from mjdrive.study.drivers import load_learner
-from mjdrive.study.driving import Place, Report, make_drives
+from mjdrive.study.driving import Place, Report, drive_all
 from mjdrive.study.folder import HELD_OUT, StudyFolder, begin
 from mjdrive.study.forks import live_forks
 from mjdrive.study.judging import Judging, judge_all
@@ -176,7 +176,7 @@ class Study:
         progress = plan_progress(self.config, self._names, runs)
         drives = [job for it in (*references, *arms) for job in it.all_drives]
         drives += [job for it in progress for job in it.drives]
-        make_drives(place, drives, executor=self.executor, report=stage("drive", len(drives)))
+        drive_all(place, drives, executor=self.executor, report=stage("drive", len(drives)))
         forks = [job for it in arms for job in it.forks]
         live_forks(
             place, forks, executor=self.executor, report=stage("live moments again", len(forks))
