@@ -4,10 +4,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from mjdrive.bev import picture as bev_picture
 from mjdrive.bev.projector import BevProjector
 from mjdrive.datatypes import Town
 from mjdrive.study import (
-    bev_picture,
     figures_ablation,
     figures_choices,
     figures_fans,

@@ -8,9 +8,9 @@ import matplotlib
 import numpy as np
 from jaxtyping import Float, UInt8
 
+from mjdrive.bev.picture import CAR, GROUND, LIGHTS, ROAD, Rgb
 from mjdrive.datatypes import Town
 from mjdrive.geometry import world_from_vehicle
-from mjdrive.study.bev_picture import CAR, GROUND, LIGHTS, ROAD, Rgb
 from mjdrive.study.figures_landscape import DEEPEST, energies
 from mjdrive.town import signals
 from mjdrive.town.surface import edges

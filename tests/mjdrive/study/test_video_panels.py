@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
+from mjdrive.bev.picture import CAR
 from mjdrive.datatypes import Town
-from mjdrive.study.bev_picture import CAR
 from mjdrive.study.video_panels import PANEL, WHITE, landscape_panel, map_panel
 from mjdrive.vehicle.parameters import VehicleParameters
 
