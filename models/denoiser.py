@@ -4,6 +4,7 @@ Shape letters: B batch, N noisy actions of each observation, H hidden units.
 """
 
 import math
+from contextlib import AbstractContextManager, nullcontext
 
 import torch
 from jaxtyping import Float
@@ -35,7 +36,7 @@ class Denoiser(nn.Module):
 
     def observe(self, features: Float[Tensor, "B F"]) -> Float[Tensor, "B 1 H"]:
         """What the observations [-] add to the first layer, to be handed to every evaluation [-]."""
-        with torch.autocast(features.device.type, enabled=False):
+        with _uncast(features.device):
             return self.observation(features.float())[:, None]
 
     def forward(
@@ -54,7 +55,7 @@ class Denoiser(nn.Module):
         Returns:
             One vector an action, in single precision [-].
         """
-        with torch.autocast(noisy.device.type, enabled=False):
+        with _uncast(noisy.device):
             units = F.silu(self._first(observed, noisy, times))
             return self.last(F.silu(self.third(F.silu(self.second(units)))))
 
@@ -89,6 +90,13 @@ class Denoiser(nn.Module):
         """The first layer before its bend."""
         times = torch.as_tensor(times, device=noisy.device, dtype=noisy.dtype)
         return observed + self.action(noisy) + self.time(_embedded(times))
+
+
+def _uncast(device: torch.device) -> AbstractContextManager[object]:
+    """Switch autocasting off where it is on; some devices have none."""
+    if not torch.is_autocast_enabled(device.type):
+        return nullcontext()
+    return torch.autocast(device.type, enabled=False)
 
 
 def _embedded(times: Float[Tensor, "*B"]) -> Float[Tensor, "*B E"]:

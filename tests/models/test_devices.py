@@ -41,6 +41,10 @@ def _stand_ins(monkeypatch):
         ("da-ibc", "langevin"),
         ("ibc-langevin", "langevin"),
         ("bc-beta", "grid"),
+        ("bc-mixture", "grid"),
+        ("bc-grid", "grid"),
+        ("diffusion", "grid"),
+        ("flow", "grid"),
     ],
 )
 def test_actions_are_chosen_where_the_weights_lie(method, kind, precision):

@@ -3,7 +3,7 @@
 import pytest
 import torch
 
-from models import checkpoint
+from models import checkpoint, presets
 from models.config import METHODS
 from models.interfaces import Batch, Learner
 from models.learners import build_learner
@@ -95,3 +95,21 @@ def test_its_first_weights_come_from_the_seed(learner):
     pairs = list(zip(*(it.parameters() for it in (first, same, other)), strict=True))
     assert all(torch.equal(a, b) for a, b, _ in pairs)
     assert not any(torch.equal(a, c) for a, _, c in pairs if a.dim() > 1)
+
+
+SIZES = {
+    "bc-beta": 1_391_204,
+    "bc-mixture": 1_396_601,
+    "bc-grid": 2_476_001,
+    "ibc": 1_390_945,
+    "da-ibc": 1_390_945,
+    "ibc-langevin": 1_390_945,
+    "diffusion": 1_327_202,
+    "flow": 1_327_202,
+}
+"""As docs/methods.md says."""
+
+
+def test_its_size_is_that_of_the_documentation(learner):
+    built = build_learner(presets.standard(learner.config.method), seed=0)
+    assert sum(it.numel() for it in built.parameters()) == SIZES[learner.config.method]
