@@ -16,6 +16,7 @@ from mjdrive.cli.study import study
 from mjdrive.cli.towns import towns
 from mjdrive.cli.train import train
 from mjdrive.cli.tune import tune
+from mjdrive.cli.view import view
 from mjdrive.errors import MjdriveError
 
 EXIT_MISTAKE = 2
@@ -78,5 +79,5 @@ def main() -> None:
     """Run `mjdrive`."""
 
 
-for command in (collect, train, drive, study, tune, towns, car, bench, info):
+for command in (collect, train, drive, view, study, tune, towns, car, bench, info):
     main.add_command(command)
