@@ -54,6 +54,14 @@ def test_the_loss_of_parts_sums_to_that_of_the_whole(learner, batch, generator):
     assert torch.equal(whole, learner.loss(batch, chance, weights=weights))
 
 
+def test_the_loss_stays_in_single_precision_when_products_do_not(learner, batch, generator):
+    chance = learner.draw(batch.actions, generator=generator)
+    with torch.autocast("cpu", torch.bfloat16):
+        loss = learner.loss(batch, chance, weights=None)
+    assert loss.dtype == torch.float32
+    assert loss.bfloat16().float() != loss
+
+
 @pytest.mark.parametrize("label", [-1.0, 0.0, 1.0])
 def test_loss_and_gradient_are_finite_at_the_ends(learner, batch, label, generator):
     few = Batch(batch.bev[:2], batch.state[:2], torch.full((2, 2), label))
