@@ -6,9 +6,9 @@ and `mjdrive --help` slow for all who do not use it. So an import of Gymnasium t
 
 import importlib
 import sys
-from collections.abc import Sequence
 from importlib.machinery import ModuleSpec
 from types import ModuleType
+from typing import Any
 
 _GYMNASIUM = "gymnasium"
 
@@ -28,8 +28,9 @@ def _register() -> None:
 class _Await:
     """Finds Gymnasium as everybody else does, and registers our environments when it has been loaded."""
 
+    # Of namespace packages, such as matplotlib's mpl_toolkits, the path is no Sequence, whatever typeshed says.
     def find_spec(
-        self, name: str, path: Sequence[str] | None, target: ModuleType | None = None
+        self, name: str, path: Any, target: ModuleType | None = None
     ) -> ModuleSpec | None:
         if name != _GYMNASIUM:
             return None
