@@ -1,5 +1,6 @@
 """MuJoCo's own viewer on a drive, for contacts and forces."""
 
+import threading
 import time
 
 import mujoco
@@ -27,7 +28,12 @@ class Viewer:
     def __init__(self, simulation: Simulation, *, contacts: bool = True) -> None:
         require_display()
         self._interval = simulation.config.control_interval
-        self._handle = mujoco.viewer.launch_passive(simulation.model, simulation.data)
+        others = set(threading.enumerate())
+        self._handle = mujoco.viewer.launch_passive(
+            simulation.model, simulation.data, show_right_ui=False
+        )
+        self._threads = set(threading.enumerate()) - others
+        self._car = simulation.data.body("car")
         self._next = time.monotonic()
         with self._handle.lock():
             for flag in (
@@ -47,10 +53,16 @@ class Viewer:
         """
         if not self._handle.is_running():
             raise ViewerClosedError
+        with self._handle.lock():
+            if self._handle.cam.type == mujoco.mjtCamera.mjCAMERA_TRACKING:
+                # By itself a tracking camera comes after the car, from the origin to begin with.
+                self._handle.cam.lookat = self._car.subtree_com
         self._handle.sync()
         time.sleep(max(0.0, self._next - time.monotonic()))
         self._next = time.monotonic() + self._interval
 
     def close(self) -> None:
-        """Close the window."""
+        """Close the window, and wait until it is: MuJoCo's thread must not draw while Python ends."""
         self._handle.close()
+        for thread in self._threads:
+            thread.join()
