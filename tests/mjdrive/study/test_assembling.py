@@ -11,7 +11,7 @@ from mjdrive.study.measures import DriveFigures
 
 
 def record(duration: float, *passages: tuple[float, str]) -> DriveRecord:
-    fields = {it.name: 0 for it in dataclasses.fields(DriveFigures)}
+    fields = {it.name: 0 if it.type is int else 0.0 for it in dataclasses.fields(DriveFigures)}
     figures = DriveFigures(**fields | {"duration_s": duration, "branches_taken": {}})  # type: ignore[arg-type]
     return DriveRecord("", figures, 0.0, passages, {}, None)
 
