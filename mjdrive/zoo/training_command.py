@@ -18,7 +18,8 @@ _SECTIONS: dict[Method, set[str]] = {
     "diffusion": {"denoiser", "diffusion"},
     "flow": {"denoiser", "flow"},
 }
-_OF_ALL = {"method", "network", "density", "optimiser"}
+"""Groups of settings that only some methods use; all others are in use by every method."""
+
 _SAMPLERS = {"dfo", "grid", "langevin"}
 
 
@@ -44,13 +45,13 @@ def training_command(config: LearnerConfig, *, seed: int, data: Path) -> str:
 
 def in_use(config: LearnerConfig) -> dict[str, str]:
     """Settings that have an effect on the method, by dotted name, as --set reads them."""
-    sections = _OF_ALL | _SECTIONS[config.method]
+    of_others = set().union(*_SECTIONS.values()) - _SECTIONS[config.method]
     idle = tuple(f"sampler.{kind}." for kind in _SAMPLERS - {config.sampler.kind})
     flat = _flat(json.loads(serialization.to_json(config)))
     return {
         name: value
         for name, value in flat.items()
-        if name.partition(".")[0] in sections and not name.startswith(idle)
+        if name.partition(".")[0] not in of_others and not name.startswith(idle)
     }
 
 

@@ -61,3 +61,12 @@ def test_settings_in_use_are_those_of_the_kind_of_sampler() -> None:
     assert "sampler.grid.points" in names
     assert "negatives.sigma" in names
     assert not any(name.startswith(("sampler.dfo", "beta", "flow")) for name in names)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_every_group_of_settings_is_in_use_by_some_method(method: Method) -> None:
+    groups = {field.name for field in dataclasses.fields(LearnerConfig)}
+    used = {name.partition(".")[0] for other in METHODS for name in in_use(presets.standard(other))}
+    assert used == groups
+    own = {name.partition(".")[0] for name in in_use(presets.standard(method))}
+    assert {"method", "network", "density", "evenness", "optimiser"} <= own
