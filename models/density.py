@@ -3,12 +3,13 @@
 import math
 
 import torch
-from jaxtyping import Float
+from jaxtyping import Float, Float64
 from torch import Tensor
 
+from models import lattice
 from models.config import DensityConfig, DensityKind
 
-# Rows of the kernel matrix held at a time; against 21,000 actions they stay near the cache.
+# Rows of the kernel matrix held at a time.
 ROWS_AT_A_TIME = 32
 
 
@@ -55,8 +56,33 @@ def _kernel_sums(rows: Tensor, columns: Tensor) -> Tensor:
 
 
 def action_density(actions: Float[Tensor, "D 2"], config: DensityConfig) -> Float[Tensor, " D"]:
-    """Density of each action among all of them, as the settings say [-]."""
-    return kernel_density(actions, actions, bandwidth=config.bandwidth, kind=config.kind)
+    """Density of each action among all of them, as the settings say, off by less than 0.1 % [-].
+
+    Pair by pair it would be exact, and take a quarter of an hour for 320,000 actions; on a lattice it takes seconds.
+
+    Args:
+        actions: In [-1, 1] [-].
+        config: Kernel.
+    """
+    axis = lattice.coordinates(config.bandwidth, actions.device)
+    log_density = density_surface(axis, actions, config).log().float()
+    return lattice.read(log_density[None], actions[None])[0, 0].exp()
+
+
+def density_surface(
+    axis: Float64[Tensor, " G"], actions: Float[Tensor, "D 2"], config: DensityConfig
+) -> Float64[Tensor, "G G"]:
+    """Density of actions on a lattice of given coordinates, nowhere zero [-]."""
+    if config.kind == "joint":
+        ones = torch.ones_like(actions[:, 0])
+        density = lattice.mixture(axis, actions, ones, spread=config.bandwidth)
+    else:
+        rows, columns = (
+            lattice.mixture_along(axis, component, spread=config.bandwidth)
+            for component in actions.T
+        )
+        density = rows[:, None] * columns
+    return density.clamp_min(lattice.LEAST_DENSITY)
 
 
 def inverse_weights(density: Float[Tensor, " D"], config: DensityConfig) -> Float[Tensor, " D"]:

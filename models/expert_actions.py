@@ -4,7 +4,7 @@ import torch
 from jaxtyping import Float
 from torch import Tensor, nn
 
-from models import undoing
+from models import lattice, undoing
 from models.config import LearnerConfig, Start
 from models.interfaces import ACTION_SIZE
 from models.negatives import uniform_actions
@@ -48,7 +48,7 @@ class ExpertActions(nn.Module):
             assert len(self.actions) > 0, "prepare() has not been called"
             self._surface = undoing.surface(config, self.actions, self.density)
             self._surface_of = key
-        return undoing.read(self._surface, actions)
+        return lattice.read(self._surface, actions)
 
     def draw(
         self, num_observations: int, count: int, start: Start, *, generator: torch.Generator

@@ -6,23 +6,14 @@ box of actions. It is computed once, on a lattice finer than the kernels that it
 interpolation.
 """
 
-import math
-
 import torch
 from jaxtyping import Float, Float64
 from torch import Tensor
-from torch.nn import functional as F  # noqa: N812
 
+from models import lattice
 from models.config import DensityConfig, LearnerConfig, NegativesConfig
-from models.density import action_density, inverse_weights
+from models.density import action_density, density_surface, inverse_weights
 from models.interfaces import ACTION_BOUND, ACTION_SIZE
-
-# Between lattice points of a Gaussian the interpolated logarithm is off by 1 / (8 * 16^2), 0.0005 nats.
-POINTS_A_KERNEL = 16
-MOST_POINTS = 1025
-# Far from all kernels a density is nothing; its logarithm stays a number.
-LEAST_DENSITY = 1e-300
-CENTRES_AT_A_TIME = 4096
 
 
 def surface(
@@ -68,20 +59,10 @@ def without_weights(
     Returns:
         Log of the density without weights, up to a constant of each observation [nats].
     """
-    axis = _lattice(settings.bandwidth, demonstrated.device)
+    axis = lattice.coordinates(settings.bandwidth, demonstrated.device)
     density = action_density(demonstrated, settings)
     weights = _log_weights(axis, settings, demonstrated, density).float()
-    return log_density - read(weights[None], actions)[0]
-
-
-def read(
-    surface: Float[Tensor, "C G G"], actions: Float[Tensor, "A N 2"]
-) -> Float[Tensor, "C A N"]:
-    """All channels of a surface at actions in [-1, 1] [nats]."""
-    # grid_sample wants the index that runs fastest first.
-    places = actions.flip(-1)[None] / ACTION_BOUND
-    found = F.grid_sample(surface[None], places, padding_mode="border", align_corners=True)
-    return found[0]
+    return log_density - lattice.read(weights[None], actions)[0]
 
 
 def _axis(config: LearnerConfig, device: torch.device) -> Float64[Tensor, " G"]:
@@ -91,13 +72,7 @@ def _axis(config: LearnerConfig, device: torch.device) -> Float64[Tensor, " G"]:
         kernels.append(config.negatives.sigma)
     if config.sampler.undo in {"density", "both"}:
         kernels.append(config.density.bandwidth)
-    return _lattice(min(kernels), device)
-
-
-def _lattice(kernel: float, device: torch.device) -> Float64[Tensor, " G"]:
-    """Coordinates from -1 to 1 that are dense enough for kernels of a standard deviation [-]."""
-    points = min(1 + math.ceil(2 * ACTION_BOUND * POINTS_A_KERNEL / kernel), MOST_POINTS)
-    return torch.linspace(-ACTION_BOUND, ACTION_BOUND, points, dtype=torch.float64, device=device)
+    return lattice.coordinates(min(kernels), device)
 
 
 def _log_negatives(
@@ -112,9 +87,9 @@ def _log_negatives(
     is_weighted = settings.pool == "minibatch" and config.density.weighting == "sampler"
     weights = inverse_weights(density, config.density) if is_weighted else torch.ones_like(density)
     share = _uniform_share(settings)
-    mixture = _mixture(axis, actions, weights, spread=settings.sigma)
+    mixture = lattice.mixture(axis, actions, weights, spread=settings.sigma)
     uniform = (2 * ACTION_BOUND) ** -ACTION_SIZE
-    return ((1 - share) * mixture + share * uniform).clamp_min(LEAST_DENSITY).log()
+    return ((1 - share) * mixture + share * uniform).clamp_min(lattice.LEAST_DENSITY).log()
 
 
 def _uniform_share(settings: NegativesConfig) -> float:
@@ -129,41 +104,8 @@ def _log_weights(
     density: Float[Tensor, " D"],
 ) -> Float64[Tensor, "G G"]:
     """Log of the weight that a demonstration of each action has, up to a constant [nats]."""
-    ones = torch.ones_like(density)
-    if settings.kind == "joint":
-        estimate = _mixture(axis, actions, ones, spread=settings.bandwidth)
-    else:
-        rows, columns = (
-            _kernels(axis, component, settings.bandwidth).mean(dim=1) for component in actions.T
-        )
-        estimate = rows[:, None] * columns
-    logs = -settings.exponent * estimate.clamp_min(LEAST_DENSITY).log()
+    logs = -settings.exponent * density_surface(axis, actions, settings).log()
     if settings.cap is None:
         return logs
     mean = density.double().reciprocal().pow(settings.exponent).mean()
     return logs.clamp_max((settings.cap * mean).log())
-
-
-def _mixture(
-    axis: Float64[Tensor, " G"],
-    centres: Float[Tensor, "D 2"],
-    weights: Float[Tensor, " D"],
-    *,
-    spread: float,
-) -> Float64[Tensor, "G G"]:
-    """Density of Gaussians around centres on a lattice: each is a product of two, so the sum is a matrix product."""
-    total = axis.new_zeros(len(axis), len(axis))
-    for part, part_weights in zip(
-        centres.split(CENTRES_AT_A_TIME), weights.split(CENTRES_AT_A_TIME), strict=True
-    ):
-        rows, columns = (_kernels(axis, component, spread) for component in part.T)
-        total.addmm_(rows * part_weights, columns.T)
-    return total / weights.double().sum()
-
-
-def _kernels(
-    axis: Float64[Tensor, " G"], centres: Float[Tensor, " D"], spread: float
-) -> Float64[Tensor, "G D"]:
-    """One-dimensional Gaussian densities of standard deviation `spread` around centres [-]."""
-    distances = (axis[:, None] - centres.double()) / spread
-    return distances.square_().mul_(-0.5).exp_() / (spread * math.sqrt(2 * math.pi))

@@ -62,3 +62,13 @@ def test_the_exponent_tempers_and_the_cap_limits():
     capped = inverse_weights(density, dataclasses.replace(DensityConfig(), cap=3.0))
     full = inverse_weights(density, DensityConfig())
     assert (capped[-1] / capped[0]).item() == pytest.approx(3 / full[0].item(), rel=1e-4)
+
+
+@pytest.mark.parametrize("kind", ["joint", "product"])
+@pytest.mark.parametrize("bandwidth", [0.05, 0.2])
+def test_the_density_of_actions_is_the_exact_one_within_a_thousandth(kind, bandwidth, generator):
+    actions = torch.rand(2000, 2, generator=generator) ** 3 * 2 - 1
+    actions[:200] = torch.tensor([-1.0, 0.0])  # as waiting repeats itself
+    config = DensityConfig(bandwidth=bandwidth, kind=kind)
+    exact = kernel_density(actions.double(), actions.double(), bandwidth=bandwidth, kind=kind)
+    torch.testing.assert_close(action_density(actions, config), exact.float(), rtol=1e-3, atol=0.0)

@@ -4,7 +4,7 @@ import math
 import pytest
 import torch
 
-from models import undoing
+from models import lattice, undoing
 from models.config import DensityConfig, LearnerConfig, NegativesConfig, SamplerConfig
 from models.density import action_density, inverse_weights, kernel_density
 from models.errors import SettingError
@@ -124,7 +124,7 @@ def test_the_lattice_is_finer_than_the_kernels_and_bounded(demonstrated):
         config = settings("negatives", negatives=dataclasses.replace(PLAIN, sigma=sigma))
         density = action_density(demonstrated, config.density)
         points[sigma] = undoing.surface(config, demonstrated, density).shape[-1]
-    assert points == {0.2: 161, 0.1: 321, 1e-3: undoing.MOST_POINTS}
+    assert points == {0.2: 161, 0.1: 321, 1e-3: lattice.MOST_POINTS}
 
 
 def test_far_from_every_demonstration_all_stays_finite():
@@ -132,7 +132,7 @@ def test_far_from_every_demonstration_all_stays_finite():
     one = torch.tensor([[-1.0, -1.0]])
     surface = undoing.surface(config, one, kernel_density(one, one, bandwidth=0.2, kind="joint"))
     assert torch.isfinite(surface).all()
-    assert math.isclose(surface[0].min(), math.log(undoing.LEAST_DENSITY), rel_tol=0.2)
+    assert math.isclose(surface[0].min(), math.log(lattice.LEAST_DENSITY), rel_tol=0.2)
 
 
 @pytest.mark.parametrize(
