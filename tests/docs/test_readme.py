@@ -23,6 +23,7 @@ PAGES = [
         "docs/cars.md",
         "docs/experts.md",
         "docs/study.md",
+        "docs/zoo.md",
     )
 ]
 
