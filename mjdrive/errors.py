@@ -83,6 +83,10 @@ class MissingPackageError(MjdriveError):
         )
 
 
+class PluginError(MjdriveError):
+    """A package that brings something along for mjdrive, and is broken."""
+
+
 class WorkerError(MjdriveError):
     """A process that helped and ended before its work was done."""
 

@@ -4,22 +4,18 @@ import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from mjdrive import config, versions
+from mjdrive import config, plugins, versions
 from mjdrive.cli.solving import late_row, solve_rows
 from mjdrive.config import CollectConfig, SimulationConfig
-from mjdrive.datatypes import Episode, Town
+from mjdrive.datatypes import Episode, Observation, Policy, Town
 from mjdrive.episodes import driving, presets, store
-from mjdrive.errors import ConfigError
+from mjdrive.errors import ConfigError, PluginError
 from mjdrive.expert import experts
 from mjdrive.expert.solves import SOLVER, SOLVES
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.tuning.gains import applied
 from mjdrive.vehicle.cars import CarModel
-
-if TYPE_CHECKING:
-    from mjdrive.learning.pilot import Pilot
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +26,8 @@ class Driver:
         name: How summaries call it.
         digest: SHA-256 of its weights, hexadecimal; empty for an expert.
         settings: Its settings as JSON text.
-        pilot: The trained policy, or None for an expert.
+        pilot: The policy that sees what learned ones may, or None for an expert.
+        device: Where a trained policy acts; empty for others.
         expert: Which expert drives and its settings, or None for a trained policy.
         learnt_cars: Name of each car whose demonstrations it learnt from, by its digest; none for the expert.
     """
@@ -38,7 +35,8 @@ class Driver:
     name: str
     settings: str
     digest: str = ""
-    pilot: "Pilot | None" = None
+    pilot: Policy[Observation] | None = None
+    device: str = ""
     expert: CollectConfig | None = None
     learnt_cars: Mapping[str, str] = field(default_factory=dict)
 
@@ -112,7 +110,7 @@ class Driver:
             "car_digest": car.digest,
             "policy_cars": json.dumps(dict(self.learnt_cars), sort_keys=True),
             "policy_digest": self.digest,
-            **({} if self.pilot is None else {"policy_device": str(self.pilot.device)}),
+            **({"policy_device": self.device} if self.device else {}),
             "settings": json.dumps(settings, sort_keys=True),
             **versions.to_metadata(versions.versions()),
         }
@@ -167,7 +165,7 @@ def find_driver(
     """Find out who shall drive.
 
     Args:
-        name: "pid", "mpc", a run folder, the name of a folder in `runs`, a shipped policy as "zoo:da-ibc", or None for
+        name: "pid", "mpc", an expert or policy of another package, a run folder, the name of a folder in `runs`, a shipped policy as "zoo:da-ibc", or None for
             the newest run and, where there is none, the shipped policy that drives by default.
         runs: Folder of run folders.
         preset: How a trained policy chooses its actions; as it was trained to if None.
@@ -177,13 +175,20 @@ def find_driver(
         ConfigError: If there is no such preset, or it has no effect.
         UnknownNameError: If there is no such policy.
         RunError: If the folder is no run, or damaged.
+        PluginError: If the package that brings it along is broken.
     """
-    if name in experts.NAMES:
+    if name in experts.names():
         if preset is not None:
             raise ConfigError(
                 f"--preset {preset} has no effect on the expert. Leave it out, or name a trained policy."
             )
         return _expert_driver(CollectConfig(expert=experts.known(name)))
+    if name is not None and name in plugins.names("policy"):
+        if preset is not None:
+            raise ConfigError(
+                f"--preset {preset} has no effect on '{name}', which another package brings along. Leave it out."
+            )
+        return _plugin_driver(name)
     from mjdrive.learning import pilot  # torch takes a second
     from mjdrive.learning import runs as run_folders
     from mjdrive.learning.training import Source
@@ -197,6 +202,7 @@ def find_driver(
         settings=serialization.to_json(policy.config),
         digest=store.digest((folder / checkpoint.MODEL).read_bytes()),
         pilot=policy,
+        device=str(policy.device),
         learnt_cars=source.cars,
     )
 
@@ -216,9 +222,29 @@ def _find_run(
         on_note(f"There is no trained run in '{runs}', so {name} drives, which comes with mjdrive.")
     if name.startswith(entries.PREFIX):
         return entries.find(name), name
-    return run_folders.find(name, runs, others=entries.full_names()), None
+    others = (*entries.full_names(), *plugins.names("policy"), *plugins.names("expert"))
+    return run_folders.find(name, runs, others=others), None
 
 
 def _expert_driver(expert: CollectConfig) -> Driver:
+    if expert.expert not in experts.NAMES:
+        return Driver(expert.expert, settings=_origin("expert", expert.expert), expert=expert)
     settings = expert.pid if expert.expert == "pid" else expert.mpc
     return Driver(expert.expert, settings=config.to_json(settings), expert=expert)
+
+
+def _plugin_driver(name: str) -> Driver:
+    """A policy that another package brings along."""
+    make = plugins.load("policy", name)
+    policy = make() if callable(make) else make
+    if not isinstance(policy, Policy):
+        raise PluginError(
+            f"The policy '{name}' of {plugins.source('policy', name)} is a {type(policy).__name__}; expected name, "
+            "reset(seed) and act(observation), made by calling the entry point with nothing."
+        )
+    return Driver(policy.name, settings=_origin("policy", name), pilot=policy)
+
+
+def _origin(kind: plugins.Kind, name: str) -> str:
+    """What can be said of the settings of a plug-in: who brought it along."""
+    return json.dumps({"package": plugins.source(kind, name)})

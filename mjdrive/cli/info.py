@@ -25,6 +25,7 @@ def info(*, is_json: bool) -> None:
         "MPC": solver_facts(),
         "several processes": executor_facts(),
         "towns": town_facts(),
+        "plug-ins": plugin_facts(),
     }
     if is_json:
         click.echo(json.dumps(facts, indent=2))
@@ -106,6 +107,17 @@ def town_facts() -> Facts:
     from mjdrive.town import library
 
     return {"known": ", ".join(library.town_names())}
+
+
+def plugin_facts() -> Facts:
+    """What other packages bring along, and what is wrong with it."""
+    from mjdrive import plugins
+
+    found = {
+        f"{it.kind} {it.name}": f"broken: {it.problem}" if it.problem else it.source
+        for it in plugins.listing()
+    }
+    return found or {"of other packages": "none"}
 
 
 def _package(name: str, *, extra: str) -> str:

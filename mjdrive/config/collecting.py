@@ -2,14 +2,13 @@
 
 import math
 from dataclasses import dataclass, field
-from typing import Literal
 
 from mjdrive.config.json_files import require
 from mjdrive.config.mpc import MpcConfig
 from mjdrive.config.settings import PidConfig
 
-ExpertName = Literal["pid", "mpc"]
-"""An expert that can be chosen."""
+ExpertName = str
+"""Name of an expert: "pid", "mpc", or one that another package brings along."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +63,7 @@ class CollectConfig:
             with a random walk, the drives that it is cut into, or None for one a km [-].
         random_walk_km: Drive so far with random turns instead of along the routes; 0 for the routes [km].
         disturbance: How the drive is disturbed, or None for the paper's noise-free demonstrations.
-        expert: Who drives, "pid" or "mpc".
+        expert: Who drives: "pid", "mpc", or an expert of another package.
         pid: Settings of the PID expert; its speeds and its law of where to stop hold for the other, too.
         mpc: Settings of the MPC expert.
         step_limit_per_metre: Control steps allowed per metre of route before the expert counts as stuck [1/m].

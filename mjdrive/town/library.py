@@ -5,9 +5,10 @@ import platform
 from functools import lru_cache
 from pathlib import Path
 
+from mjdrive import plugins
 from mjdrive.config import read_json
 from mjdrive.datatypes import Town
-from mjdrive.errors import TownFormatError, UnknownNameError, WorkerError
+from mjdrive.errors import PluginError, TownFormatError, UnknownNameError, WorkerError
 from mjdrive.town import opendrive
 from mjdrive.town.network import build_town
 from mjdrive.town.settings import TownSettings
@@ -44,7 +45,7 @@ def shipped_names() -> tuple[str, ...]:
 
 def town_names() -> tuple[str, ...]:
     """List the towns that can be loaded by name here, in alphabetical order."""
-    return tuple(sorted({*shipped_names(), *_names_in(OWN_TOWNS)}))
+    return tuple(sorted({*shipped_names(), *_names_in(OWN_TOWNS), *plugins.names("town")}))
 
 
 def _names_in(folder: Path) -> tuple[str, ...]:
@@ -53,14 +54,17 @@ def _names_in(folder: Path) -> tuple[str, ...]:
 
 
 def folder_of(name: str) -> Path:
-    """Find the folder of a town; a town that comes with mjdrive goes before one of the user's.
+    """Find the folder of a town; one that comes with mjdrive goes before one of the user's, that before a package's.
 
     Raises:
         UnknownNameError: If there is no town of that name.
+        PluginError: If the package that brings it along is broken.
     """
     for folder in (towns_folder(), OWN_TOWNS):
         if name in _names_in(folder):
             return folder / name
+    if name in plugins.names("town"):
+        return _folder_in_package(name)
     raise UnknownNameError(
         "town",
         name,
@@ -68,6 +72,17 @@ def folder_of(name: str) -> Path:
         hint=f"Towns are folders in '{towns_folder()}' and in '{OWN_TOWNS}' where you work; "
         "`mjdrive towns import` makes one from an OpenDRIVE map.",
     )
+
+
+def _folder_in_package(name: str) -> Path:
+    """Folder of a town that an entry point `mjdrive.towns` names."""
+    folder = plugins.load("town", name)
+    if not (isinstance(folder, Path) and folder.name == name and (folder / MAP_FILE).is_file()):
+        raise PluginError(
+            f"The town '{name}' of {plugins.source('town', name)} is {folder!r}; expected the pathlib.Path of a folder of "
+            f"that name with {MAP_FILE} and {SETTINGS_FILE}."
+        )
+    return folder
 
 
 def load(name: str) -> Town:

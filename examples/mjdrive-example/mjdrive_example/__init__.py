@@ -1,0 +1,1 @@
+"""What a package for mjdrive looks like."""
