@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 Statistic = Callable[[np.ndarray], np.ndarray]
 """Figures of shape (..., S, E) to one figure for each table of seeds and episodes, shape (...)."""
@@ -58,12 +58,13 @@ def interval(
 ) -> Interval:
     """Bootstrap a figure over training seeds and, within them, over episodes.
 
-    In each draw whole seeds are drawn with replacement, and the episodes of each seed likewise: what a seed has learnt
-    shows in all of its episodes, which are no independent evidence. With three to five seeds such intervals are still
-    too narrow (tests/mjdrive/evaluation/test_bootstrap.py says by how much); with one they say nothing of training.
+    In each draw whole seeds are drawn with replacement, and episodes likewise, the same ones for all seeds: what a seed
+    has learnt shows in all of its episodes, and a hard start in the episodes of all seeds, so neither is independent
+    evidence. With three to five seeds such intervals are still too narrow (tests/mjdrive/evaluation/test_bootstrap.py
+    says by how much); with one they say nothing of training.
 
     Args:
-        figures: One figure for each training seed and episode, in any unit.
+        figures: One figure for each training seed and episode, in any unit; all seeds drive from the same starts.
         rng: Source of the draws.
         statistic: What is made of them.
         level: Share of the draws inside the interval [-].
@@ -72,7 +73,7 @@ def interval(
     Returns:
         The figure and its percentile interval.
     """
-    drawn = statistic(_drawn(figures, rng, num_draws))
+    drawn = statistic(_drawn(figures, _episodes(figures, rng, num_draws), rng))
     return _interval(float(statistic(figures)), drawn, level)
 
 
@@ -87,8 +88,10 @@ def ratio_interval(
 ) -> Interval:
     """Bootstrap the ratio of a figure to that of a reference, whose own chance counts, too.
 
+    Where both have as many episodes, they were driven from the same starts, and each draw takes the same ones of both.
+
     Args:
-        figures: One figure for each training seed and episode, in any unit.
+        figures: One figure for each training seed and episode, in any unit; all seeds drive from the same starts.
         reference: The same of the reference, in the same unit.
         rng: Source of the draws.
         statistic: What is made of them.
@@ -98,18 +101,28 @@ def ratio_interval(
     Returns:
         The ratio and its percentile interval [-].
     """
-    above = statistic(_drawn(figures, rng, num_draws))
-    below = statistic(_drawn(reference, rng, num_draws))
+    episodes = _episodes(figures, rng, num_draws)
+    is_paired = figures.shape[1] == reference.shape[1]
+    above = statistic(_drawn(figures, episodes, rng))
+    others = episodes if is_paired else _episodes(reference, rng, num_draws)
+    below = statistic(_drawn(reference, others, rng))
     return _interval(float(statistic(figures) / statistic(reference)), above / below, level)
 
 
-def _drawn(
+def _episodes(
     figures: Float[np.ndarray, "S E"], rng: np.random.Generator, num_draws: int
+) -> Int[np.ndarray, "D 1 E"]:
+    """Draw episodes with replacement, the same ones for all seeds of a draw: they share their starts and lights."""
+    num_episodes = figures.shape[1]
+    return rng.integers(num_episodes, size=(num_draws, 1, num_episodes))
+
+
+def _drawn(
+    figures: Float[np.ndarray, "S E"], episodes: Int[np.ndarray, "D 1 E"], rng: np.random.Generator
 ) -> Float[np.ndarray, "D S E"]:
-    """Draw seeds with replacement, and the episodes of each likewise."""
-    num_seeds, num_episodes = figures.shape
-    seeds = rng.integers(num_seeds, size=(num_draws, num_seeds, 1))
-    episodes = rng.integers(num_episodes, size=(num_draws, num_seeds, num_episodes))
+    """Draw seeds with replacement, and take the episodes that were drawn."""
+    num_seeds = len(figures)
+    seeds = rng.integers(num_seeds, size=(len(episodes), num_seeds, 1))
     return figures[seeds, episodes]
 
 

@@ -19,6 +19,16 @@ def test_interval_covers_the_truth_where_seeds_differ(num_seeds: int, least: flo
     assert least < hits / 300 <= 0.99
 
 
+def test_starts_that_all_seeds_share_are_drawn_for_all_of_them() -> None:
+    rng = np.random.default_rng(1)
+    hits = 0
+    for _ in range(200):
+        starts = rng.normal(5.0, 1.0, size=(1, 10))
+        found = interval(np.repeat(starts, 5, axis=0), rng=rng, num_draws=300)
+        hits += found.low <= 5.0 <= found.high
+    assert 0.85 < hits / 200 <= 0.99, "five seeds on ten starts are ten starts, not fifty"
+
+
 def test_what_all_episodes_of_a_seed_share_counts_once() -> None:
     figures = np.repeat([[0.0], [10.0]], 50, axis=1)
     found = interval(figures, rng=np.random.default_rng(0))
@@ -65,13 +75,20 @@ def test_draws_of_a_batch_are_judged_one_by_one() -> None:
         assert float(statistic(np.full((3, 5), 2.0))) == pytest.approx(2.0)
 
 
-def test_a_ratio_to_itself_is_one_and_its_interval_holds_the_chance_of_both() -> None:
+def test_a_ratio_holds_the_chance_of_both_where_they_share_no_starts() -> None:
     rng = np.random.default_rng(5)
-    figures = rng.normal(10.0, 1.0, size=(3, 10))
-    found = ratio_interval(figures, figures, rng=np.random.default_rng(0))
-    assert found.value == 1.0
-    against_a_number = ratio_interval(figures, np.full((1, 1), 10.0), rng=np.random.default_rng(0))
-    assert found.low < against_a_number.low < 1.0 < against_a_number.high < found.high
+    figures, others = rng.normal(10.0, 1.0, size=(3, 10)), rng.normal(10.0, 1.0, size=(3, 12))
+    found = ratio_interval(figures, others, rng=np.random.default_rng(0))
+    number = np.full((1, 1), others.mean())
+    against_a_number = ratio_interval(figures, number, rng=np.random.default_rng(0))
+    assert found.value == pytest.approx(against_a_number.value)
+    assert found.low < against_a_number.low < against_a_number.high < found.high
+
+
+def test_a_ratio_does_not_count_what_makes_a_start_hard_for_both() -> None:
+    starts = np.random.default_rng(5).normal(10.0, 3.0, size=(1, 10))
+    found = ratio_interval(0.5 * np.repeat(starts, 3, axis=0), starts, rng=np.random.default_rng(0))
+    assert (found.low, found.high) == pytest.approx((0.5, 0.5))
 
 
 def test_a_ratio_has_no_unit() -> None:
