@@ -209,7 +209,7 @@ class DrivingEnv(gymnasium.Env[Seen, np.ndarray]):
         self._window.show(picture)
 
 
-def observation_space() -> spaces.Dict:
+def observation_space() -> spaces.Space[Seen]:
     """What an `Observation` can be."""
     size = BevConfig().size_px
     limits = np.array([FASTEST, 1.0, 1.0], np.float32)
