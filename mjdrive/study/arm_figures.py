@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from mjdrive.evaluation.forking import mean_outcome
 from mjdrive.evaluation.metrics import RED_LIGHT_FACTOR
-from mjdrive.study.measures import DriveFigures
+from mjdrive.study.measures import Curve, DriveFigures
 from mjdrive.study.results import ArmResult
 
 
@@ -43,8 +43,18 @@ def reds_per_light(result: ArmResult) -> float | None:
 
 
 def km_to_half(result: ArmResult) -> float | None:
-    """Distance until half of the directed lanes were visited [km]; None if they never were."""
-    reached = zip(result.coverage.x, result.coverage.share, strict=True)
+    """Distance until half of the directed lanes were visited in the drives of the tables [km]; None if they never were."""
+    return _half(result.coverage)
+
+
+def km_to_half_in_all(result: ArmResult) -> float | None:
+    """The same in the drives of the tables and then the long drive [km]."""
+    return _half(result.all_coverage)
+
+
+def _half(curve: Curve) -> float | None:
+    """Where a curve comes to a half; None if it does not."""
+    reached = zip(curve.x, curve.share, strict=True)
     return next((x for x, share in reached if share >= 0.5), None)
 
 

@@ -133,6 +133,12 @@ def _curve(x: Sequence[float], share: Sequence[float]) -> Curve:
 
 
 def _coverage_curve(records: Sequence[DriveRecord], town: Town) -> Curve:
+    """Share of the directed lanes visited over the distance of several drives, one after the other; x in [km].
+
+    Args:
+        records: The drives.
+        town: Where.
+    """
     joined = joined_coverage(
         [it.visits for it in records],
         [it.length_m for it in records],
@@ -161,7 +167,8 @@ def _arm_result(
         choices=_choices(_taken(drives), town, config),
         all_choices=_choices(_taken(everything), town, config),
         recall=recall_curve(everything, town),
-        coverage=_coverage_curve(everything, town),
+        coverage=_coverage_curve(drives, town),
+        all_coverage=_coverage_curve(everything, town),
         forks=tuple(it.outcome for it in forked if it.outcome is not None),
         likelihood=None if judged is None else judged.likelihood,
         landscape=None if judged is None else judged.landscape,

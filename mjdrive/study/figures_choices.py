@@ -35,7 +35,7 @@ def draw_recall(results: Sequence[ArmResult], looks: Mapping[str, Look], path: P
         figure = Figure(figsize=(8.5, 4.4), layout="constrained")
         recall, coverage = figure.subplots(1, 2)
         _draw_curves(recall, results, looks, lambda result: result.recall)
-        _draw_curves(coverage, results, looks, lambda result: result.coverage)
+        _draw_curves(coverage, results, looks, lambda result: result.all_coverage)
         if recall.get_xlim()[1] > MARKED:
             recall.axvline(MARKED, color=PALE, linewidth=1.0, linestyle=":")
             recall.text(1.02 * MARKED, 0.02, f"{MARKED:,.0f} s", color=PALE, fontsize=8)

@@ -63,7 +63,8 @@ class ArmResult:
         choices: What it chose at junctions in `drives`.
         all_choices: The same in `drives` and `long_drive`.
         recall: Branch recall over time in `drives` and then `long_drive`; x in [s].
-        coverage: Share of the town's directed lanes visited over distance, likewise; x in [km].
+        coverage: Share of the town's directed lanes visited over distance in `drives`; x in [km].
+        all_coverage: The same in `drives` and then `long_drive`.
         forks: What it made of moments before junctions; none for a reference.
         likelihood: How likely it finds what the expert does; None for a reference.
         landscape: How many ways to act it sees; None for a reference.
@@ -79,6 +80,7 @@ class ArmResult:
     all_choices: ChoiceStatistics
     recall: Curve
     coverage: Curve
+    all_coverage: Curve
     forks: tuple[ForkOutcome, ...]
     likelihood: Likelihood | None
     landscape: LandscapeFigures | None

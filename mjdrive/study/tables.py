@@ -11,6 +11,7 @@ from mjdrive.study.arm_figures import (
     junction_entropy,
     junction_gain,
     km_to_half,
+    km_to_half_in_all,
     long_score,
     mode_precision,
     num_modes,
@@ -100,8 +101,11 @@ def multimodality_table(config: StudyConfig, found: StudyResults) -> str:
         (f"branch recall in {all_drives}", _agent(lambda it: it.choices.recall)),
         (f"branch recall in {everything}", _long(lambda it: it.all_choices.recall)),
         ("directed lanes visited", _agent(lambda it: it.coverage.share[-1])),
+        (f"directed lanes visited in {everything}", _long(lambda it: it.all_coverage.share[-1])),
         ("km to half of them", _agent(km_to_half)),
-        ("branch entropy", _agent(lambda it: it.all_choices.entropy)),
+        (f"km to half of them in {everything}", _long(km_to_half_in_all)),
+        ("branch entropy", _agent(lambda it: it.choices.entropy)),
+        (f"branch entropy in {everything}", _long(lambda it: it.all_choices.entropy)),
         ("JS to the expert's exits [bit]", _agent(lambda it: it.choices.divergence)),
         ("its floor [bit]", _agent(lambda it: it.choices.divergence_floor)),
         ("JS of turns [bit]", _agent(lambda it: it.choices.turn_divergence)),
@@ -206,7 +210,7 @@ def _agent(figure: Callable[[ArmResult], float | None]) -> Callable[[Row], str]:
     return lambda row: cell(row.per_agent(figure))
 
 
-def _long(figure: Callable[[ArmResult], float]) -> Callable[[Row], str]:
+def _long(figure: Callable[[ArmResult], float | None]) -> Callable[[Row], str]:
     """A figure of those agents that made a long drive."""
 
     def text(row: Row) -> str:

@@ -64,6 +64,7 @@ def result(arm: str, seed: int, *drives: DriveFigures, variant: str = "da-ibc") 
         all_choices=CHOICES,
         recall=Curve((0.0, 600.0), (0.0, 0.5)),
         coverage=Curve((0.0, 0.4, 0.9, 2.0), (0.0, 0.4, 0.6, 0.6)),
+        all_coverage=Curve((0.0, 0.4, 0.9, 2.0), (0.0, 0.4, 0.6, 0.6)),
         forks=(ForkOutcome("approach", 50, 0.9, {"left": 20, "right": 25}, 0.99),),
         likelihood=Likelihood(100, 4.5, 0.1, 3.25),
         landscape=None,
@@ -166,6 +167,30 @@ def test_multimodality_shows_what_was_measured_and_a_dash_elsewhere(
     assert mine["held-out log-likelihood above uniform [nats]"].startswith("4.50")
     assert expert["mode precision"] == rows.NOTHING
     assert mine["modes at junctions"] == rows.NOTHING
+
+
+def test_a_long_drive_shows_in_columns_of_its_own_alone(
+    study: tuple[StudyConfig, StudyResults],
+) -> None:
+    config, found = study
+    first, *others = found.arms
+    seen_more = dataclasses.replace(
+        first,
+        long_drive=drive(9000),
+        all_choices=dataclasses.replace(CHOICES, recall=0.75, entropy=0.25),
+        all_coverage=Curve((0.0, 0.3, 9.0), (0.0, 0.7, 0.8)),
+    )
+    short = tables.multimodality_table(config, found)
+    long = tables.multimodality_table(config, dataclasses.replace(found, arms=(seen_more, *others)))
+    before, after = (cells(table, "DA-IBC, sampled") for table in (short, long))
+    changed = {name: cell for name, cell in after.items() if before[name] != cell}
+    assert {name.partition(" in ")[0]: cell for name, cell in changed.items()} == {
+        "branch recall": "0.75",
+        "directed lanes visited": "0.80",
+        "km to half of them": "0.30",
+        "branch entropy": "0.25",
+    }
+    assert all("long drive included" in name for name in changed)
 
 
 def test_demonstrations_show_their_own_turn_balance(
