@@ -18,6 +18,9 @@ from mjdrive.zoo.entries import PREFIX
 from models import serialization
 from models.config import LearnerConfig
 
+_KNOWN = ("town", "town_digest", "car", "car_digest", "policy_digest")
+"""What drives have to say of themselves."""
+
 
 def read_evaluation(
     folder: Path, *, name: str, acting: LearnerConfig, digests: Collection[str]
@@ -31,10 +34,12 @@ def read_evaluation(
         digests: Of its weights, as they are shipped and as training left them, hexadecimal.
 
     Raises:
-        DataError: If there are no drives, or another policy or other settings made them.
+        DataError: If there are no drives, another policy or other settings made them, or town or car have changed.
+        UnknownNameError: If there is no such town or car any more.
     """
     description = _description(folder)
     _require_driven_by(description, folder, acting, digests)
+    _require_driven_in(description, folder)
     drives = [
         config.read_json(DriveSummary, path) for path in sorted(folder.glob(f"*/{report.SUMMARY}"))
     ]
@@ -56,7 +61,7 @@ def _description(folder: Path) -> dict[str, str]:
     try:
         values: dict[str, str] = json.loads((folder / DESCRIPTION).read_text())
         settings: dict[str, Any] = json.loads(values["settings"])
-        known = {name: values[name] for name in ("town", "car", "policy_digest")}
+        known = {name: values[name] for name in _KNOWN}
         seed = {"seed": values["seed"]} if "seed" in values else {}
         return {**known, **seed, "acting": json.dumps(settings["policy"])}
     except (OSError, ValueError, KeyError, TypeError) as error:
@@ -87,6 +92,18 @@ def _require_driven_by(
             f"The drives in '{folder}' were made with other settings than those that the policy is shipped with. Drive "
             f"without --preset, or ship it with --set as it drove."
         )
+
+
+def _require_driven_in(description: Mapping[str, str], folder: Path) -> None:
+    """Refuse drives of a town or car that has changed: the command of the card would make others."""
+    town, car = library.load(description["town"]), cars.load(description["car"])
+    for kind, name, here in (("town", town.name, town.digest), ("car", car.name, car.digest)):
+        drove = description[f"{kind}_digest"]
+        if drove != here:
+            raise DataError(
+                f"The drives in '{folder}' were made with another {kind} {name} (digest {drove[:12]}); expected that of "
+                f"today ({here[:12]}). Drive again."
+            )
 
 
 def _command(description: Mapping[str, str], *, name: str, num_drives: int, steps: int) -> str:

@@ -73,7 +73,7 @@ def _evaluation(evaluation: Evaluation, card: ModelCard) -> Iterator[str]:
     yield "```"
     if evaluation.weights_sha256 != card.weights.sha256:
         yield ""
-        yield "These drives were made by the weights as training left them, in float32, before they were rounded: the command above makes others, no worse on average."
+        yield "These drives were made by the weights as training left them, in float32, before they were rounded: the command above makes others."
 
 
 def _training(training: Training) -> Iterator[str]:

@@ -7,6 +7,8 @@ from mjdrive import config
 from mjdrive.errors import DataError
 from mjdrive.evaluation.lane_keeping import LaneKeeping
 from mjdrive.evaluation.metrics import DriveSummary
+from mjdrive.town import library
+from mjdrive.vehicle import cars
 from mjdrive.zoo.evaluations import read_evaluation
 from models import presets, serialization
 from models.config import LearnerConfig
@@ -55,7 +57,9 @@ def drives(tmp_path: Path) -> Path:
     settings["sampler"]["precision"] = "bfloat16"  # as a machine settled on
     description = {
         "town": "town02",
+        "town_digest": library.load("town02").digest,
         "car": "default",
+        "car_digest": cars.load("default").digest,
         "seed": "5",
         "policy_digest": DIGEST,
         "settings": json.dumps({"policy": settings}),
@@ -97,6 +101,15 @@ def test_drives_of_other_weights_are_refused(drives: Path) -> None:
 def test_drives_with_another_way_to_act_are_refused(drives: Path) -> None:
     with pytest.raises(DataError, match="other settings"):
         read(drives, acting=presets.paper("da-ibc"))
+
+
+@pytest.mark.parametrize("kind", ["town", "car"])
+def test_drives_of_a_town_or_car_that_has_changed_are_refused(drives: Path, kind: str) -> None:
+    path = drives / "drives.json"
+    values = json.loads(path.read_text()) | {f"{kind}_digest": "cd" * 32}
+    path.write_text(json.dumps(values))
+    with pytest.raises(DataError, match=f"another {kind} .*digest cdcdcdcdcdcd.*Drive again"):
+        read(drives)
 
 
 @pytest.mark.parametrize("content", [None, "", "[]", "{}", '{"settings": "no"}', NAMELESS])
