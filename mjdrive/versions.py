@@ -1,14 +1,21 @@
 """Versions of what decides the bytes that mjdrive writes."""
 
+import functools
+import hashlib
 import importlib.metadata
+import importlib.util
 import platform
 from collections.abc import Mapping
+from pathlib import Path
 
 import mjdrive
 from mjdrive.errors import WorkerError
 
 PREFIX = "version."
 """`Episode.metadata` names that begin so hold the version of a package."""
+
+_SOURCES = (".py", ".jinja", ".xml")
+"""Endings of the files that code consists of."""
 
 _OPENCV = (
     "opencv-python-headless",
@@ -50,6 +57,39 @@ def version_of(*packages: str) -> str:
         except importlib.metadata.PackageNotFoundError:
             continue
     return "unknown"
+
+
+@functools.cache
+def code_digest() -> str:
+    """SHA-256 of the sources of mjdrive and models when it was first asked for, hexadecimal.
+
+    A version stays while code changes; this does not.
+    """
+    return digest_of_sources(*(_folder_of(name) for name in ("mjdrive", "models")))
+
+
+def digest_of_sources(*packages: Path) -> str:
+    """SHA-256 of the code in some folders, names of files included, hexadecimal.
+
+    Args:
+        packages: Folders of packages; where they are does not count, what they are called does.
+    """
+    total = hashlib.sha256()
+    for package in packages:
+        for path in sorted(it for it in package.rglob("*") if it.suffix in _SOURCES):
+            content = hashlib.sha256(path.read_bytes()).hexdigest()
+            total.update(
+                f"{package.name}/{path.relative_to(package).as_posix()} {content}\n".encode()
+            )
+    return total.hexdigest()
+
+
+def _folder_of(package: str) -> Path:
+    """Where a package is, without importing it."""
+    spec = importlib.util.find_spec(package)
+    assert spec is not None, f"{package} is installed with mjdrive"
+    assert spec.origin is not None, f"{package} has an __init__.py"
+    return Path(spec.origin).parent
 
 
 def require_same(expected: Mapping[str, str]) -> None:

@@ -71,6 +71,12 @@ def begin(folder: Path, record: StudyRecord) -> None:
             f"'{path}' is no record of a study of this version: {error} Give another folder with --out."
         ) from error
     differing = _differing(found, record)
+    if differing == ["code"]:
+        raise DataError(
+            f"The study in '{folder}' was begun with other code of mjdrive and models (digest {found.code[:12]}); here it "
+            f"is {record.code[:12]}. Expected the same, as figures of two codes do not belong into one table. Go on with "
+            f"the code that began it, or give another folder with --out."
+        )
     if differing:
         raise DataError(
             f"'{folder}' holds another study: it differs in {', '.join(differing)}. Expected the same, to go on with it. "

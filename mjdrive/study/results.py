@@ -34,6 +34,7 @@ class StudyRecord:
         settings: All that decides its results.
         learners: Settings that each variant is trained with, by its name, as JSON values by their dotted names.
         versions: Versions of the software.
+        code: SHA-256 of the sources of mjdrive and models, hexadecimal: records hold figures that code derived.
         towns: Digest of each town that is driven in, by name.
         car: Digest of the car that drives.
         data: Digest of the manifest of each data set that was there before, by name; the study collects the others.
@@ -43,6 +44,7 @@ class StudyRecord:
     settings: StudyConfig
     learners: Mapping[str, dict[str, Any]]
     versions: Mapping[str, str]
+    code: str
     towns: Mapping[str, str]
     car: str
     data: Mapping[str, str] = field(default_factory=dict)

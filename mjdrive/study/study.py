@@ -24,6 +24,7 @@ from mjdrive.study.judging import Judging, judge_all
 from mjdrive.study.plan import ArmPlan, plan_arms, plan_progress, plan_references
 from mjdrive.study.report import write_report
 from mjdrive.study.results import StudyRecord, StudyResults
+from mjdrive.study.situations import situations
 from mjdrive.study.training import TrainingJob, train_all
 from mjdrive.town import library
 from mjdrive.vehicle import cars
@@ -62,11 +63,13 @@ class Study:
         Raises:
             ConfigError: If a setting has no meaning.
             DataError: If the folder holds something else, or a data set is damaged.
+            RouteError: If no junction of the town leaves a choice of two, or the town has no routes to learn from.
             RunError: If a trained run is not what the study says.
             UnknownNameError: If there is no such town, method, preset, data set or setting.
             WorkerError: If a process was lost.
         """
         require_buildable(self.config)
+        situations(library.load(self.config.town))  # which later stages look at, so that a town without them is refused
         self._require_data()
         given = self._given_runs()
         begin(self.folder, self._record(given))
@@ -116,6 +119,7 @@ class Study:
                 for it in self.config.variants
             },
             versions=versions.all_versions(),
+            code=versions.code_digest(),
             towns={name: library.load(name).digest for name in names},
             car=cars.load().digest,
             data={name: dataset.digest(place) for name, place in self.data.items()},

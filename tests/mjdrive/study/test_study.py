@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from mjdrive.config import StudyConfig, from_dict, read_json
-from mjdrive.errors import DataError, RunError, UnknownNameError
+from mjdrive.errors import DataError, RouteError, RunError, UnknownNameError
 from mjdrive.evaluation.metrics import RED_LIGHT_FACTOR
 from mjdrive.study.folder import StudyFolder
 from mjdrive.study.plan import plan_arms, plan_references
@@ -168,6 +168,15 @@ def test_runs_trained_on_other_data_are_refused(
     other = dataclasses.replace(tiny, seed=1)
     with pytest.raises(RunError, match="trained on another data set"):
         Study(other, tmp_path / "study", {}, tiny_folder / "runs").run(quietly)
+
+
+def test_a_town_without_a_choice_of_two_is_refused_before_anything_runs(
+    tiny: StudyConfig, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("mjdrive.study.situations.approaches", lambda town: ())
+    with pytest.raises(RouteError, match="no junction with two ways on"):
+        Study(tiny, tmp_path / "study").run(quietly)
+    assert not (tmp_path / "study").exists()
 
 
 def test_data_that_nobody_learns_from_is_refused(

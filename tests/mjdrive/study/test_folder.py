@@ -1,0 +1,33 @@
+"""A study goes on with what it began with, and with nothing else."""
+
+import dataclasses
+from pathlib import Path
+
+import pytest
+
+from mjdrive.config import StudyConfig
+from mjdrive.errors import DataError
+from mjdrive.study.folder import begin
+from mjdrive.study.results import StudyRecord
+
+
+@pytest.fixture
+def record(tiny: StudyConfig) -> StudyRecord:
+    return StudyRecord(
+        settings=tiny,
+        learners={},
+        versions={"mjdrive": "1.0"},
+        code="12" * 32,
+        towns={"town01": "cd" * 32},
+        car="ef" * 32,
+    )
+
+
+def test_a_study_goes_on_only_with_the_code_that_began_it(
+    record: StudyRecord, tmp_path: Path
+) -> None:
+    begin(tmp_path / "study", record)
+    begin(tmp_path / "study", record)
+    changed = dataclasses.replace(record, code="ab" * 32)
+    with pytest.raises(DataError, match=r"begun with other code .*121212121212.*abababababab"):
+        begin(tmp_path / "study", changed)
