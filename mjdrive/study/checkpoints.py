@@ -13,7 +13,7 @@ from mjdrive.learning import runs
 from mjdrive.learning.training import Source
 from mjdrive.study.agents import Agent
 from models import checkpoint, serialization
-from models.config import LearnerConfig
+from models.config import LearnerConfig, settings_of
 from models.errors import ModelsError
 from models.run_folder import read_history
 
@@ -22,23 +22,6 @@ EPOCHS = "epochs"
 
 _KEPT = (runs.SOURCE, checkpoint.CONFIG, checkpoint.MODEL, checkpoint.STATE)
 """What a checkpoint that only drives consists of."""
-
-_ENERGY = ("negatives.", "sampler.kind", "sampler.dfo.", "sampler.grid.", "sampler.undo")
-
-MATTERS: dict[str, tuple[str, ...]] = {
-    "bc-beta": ("beta.",),
-    "bc-mixture": ("beta.", "mixture."),
-    "bc-grid": ("categorical.",),
-    "ibc": _ENERGY,
-    "da-ibc": _ENERGY,
-    "ibc-langevin": (*_ENERGY, "langevin_negatives.", "sampler.langevin."),
-    "diffusion": ("denoiser.", "diffusion."),
-    "flow": ("denoiser.", "flow."),
-}
-"""How the settings begin that have an effect on a method, beside those that have one on all."""
-
-MATTERS_TO_ALL = ("method", "network.", "density.", "optimiser.")
-"""How the settings begin that have an effect on every method."""
 
 
 def keep_epoch(run: Path, *, every: int) -> None:
@@ -162,7 +145,7 @@ def _differing(wanted: LearnerConfig, found: LearnerConfig) -> list[str]:
 
 def effective_settings(config: LearnerConfig) -> dict[str, Any]:
     """The settings of a learner that have an effect on it, as JSON values by their dotted names."""
-    matters = (*MATTERS_TO_ALL, *MATTERS[config.method])
+    matters = settings_of(config.method)
     values = _flat(json.loads(serialization.to_json(config)))
     return {name: value for name, value in values.items() if name.startswith(matters)}
 

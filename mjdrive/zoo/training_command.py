@@ -6,21 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from models import presets, serialization
-from models.config import LearnerConfig, Method
-
-_SECTIONS: dict[Method, set[str]] = {
-    "bc-beta": {"beta"},
-    "bc-mixture": {"beta", "mixture"},
-    "bc-grid": {"categorical"},
-    "ibc": {"negatives", "sampler"},
-    "da-ibc": {"negatives", "sampler"},
-    "ibc-langevin": {"negatives", "langevin_negatives", "sampler"},
-    "diffusion": {"denoiser", "diffusion"},
-    "flow": {"denoiser", "flow"},
-}
-"""Groups of settings that only some methods use; all others are in use by every method."""
-
-_SAMPLERS = {"dfo", "grid", "langevin"}
+from models.config import LearnerConfig, is_idle
 
 
 def training_command(config: LearnerConfig, *, seed: int, data: Path) -> str:
@@ -45,14 +31,8 @@ def training_command(config: LearnerConfig, *, seed: int, data: Path) -> str:
 
 def in_use(config: LearnerConfig) -> dict[str, str]:
     """Settings that have an effect on the method, by dotted name, as --set reads them."""
-    of_others = set().union(*_SECTIONS.values()) - _SECTIONS[config.method]
-    idle = tuple(f"sampler.{kind}." for kind in _SAMPLERS - {config.sampler.kind})
     flat = _flat(json.loads(serialization.to_json(config)))
-    return {
-        name: value
-        for name, value in flat.items()
-        if name.partition(".")[0] not in of_others and not name.startswith(idle)
-    }
+    return {name: value for name, value in flat.items() if not is_idle(name, config)}
 
 
 def _changes(preset: LearnerConfig, config: LearnerConfig) -> list[str]:

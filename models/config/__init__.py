@@ -1,5 +1,6 @@
 """Every setting of the learners, among them each ambiguity of the paper; presets are in `models.presets`."""
 
+from models.config.effects import is_idle, settings_of
 from models.config.evenness import EvennessConfig
 from models.config.explicit import BetaConfig, CategoricalConfig, MixtureConfig
 from models.config.generative import DenoiserConfig, DiffusionConfig, FlowConfig
@@ -38,4 +39,6 @@ __all__ = [
     "Start",
     "StateInput",
     "Undo",
+    "is_idle",
+    "settings_of",
 ]

@@ -11,7 +11,7 @@ from mjdrive.errors import RunError
 from mjdrive.study import checkpoints
 from mjdrive.study.agents import Agent, learner_config
 from models import serialization
-from models.config import METHODS
+from models.config import LangevinConfig
 
 
 def put(run: Path, epoch: int, *, epochs: int = 6, seed: int = 0, weights: str = "") -> Path:
@@ -90,14 +90,25 @@ def test_only_settings_with_an_effect_on_the_method_tell_runs_apart(tmp_path: Pa
         checkpoints.require_planned(run, agent, planned)
 
 
-def test_every_method_says_which_settings_have_an_effect_on_it() -> None:
-    assert set(checkpoints.MATTERS) == set(METHODS)
-    for method in METHODS:
-        values = json.loads(serialization.to_json(learner_config(Variant(method, method))))
-        for name in (*checkpoints.MATTERS_TO_ALL, *checkpoints.MATTERS[method]):
-            place = values
-            for part in name.rstrip(".").split("."):
-                place = place[part]
+@pytest.mark.parametrize(
+    ("method", "group", "changes", "said"),
+    [
+        ("flow", "evenness", {"speed_exponent": 0.5}, r"evenness\.speed_exponent 0\.5"),
+        ("da-ibc", "sampler", {"precision": "bfloat16"}, r"sampler\.precision bfloat16"),
+        ("ibc", "sampler", {"langevin": LangevinConfig(7)}, r"sampler\.langevin\.num_chains 7"),
+    ],
+)
+def test_runs_that_drew_pairs_or_choose_actions_otherwise_are_refused(
+    tmp_path: Path, method: str, group: str, changes: dict[str, object], said: str
+) -> None:
+    agent = Agent(Variant(method, method), 0)
+    planned = learner_config(agent.variant)
+    run = put(tmp_path / "run", 6)
+    changed = dataclasses.replace(getattr(planned, group), **changes)
+    other = dataclasses.replace(planned, **{group: changed})
+    (run / "config.json").write_text(serialization.to_json(other))
+    with pytest.raises(RunError, match=said):
+        checkpoints.require_planned(run, agent, planned)
 
 
 def test_a_run_that_is_not_finished_is_not_taken(tmp_path: Path) -> None:
