@@ -32,7 +32,12 @@ def require_shares(team: Team, batch_size: int) -> None:
 
 
 def facts(
-    config: LearnerConfig, *, seed: int, actions: Float[Tensor, "D 2"], num_epochs_done: int
+    config: LearnerConfig,
+    *,
+    seed: int,
+    actions: Float[Tensor, "D 2"],
+    states: Float[Tensor, "D 3"],
+    num_epochs_done: int,
 ) -> dict[str, str]:
     """What has to be the same in all processes, by its name.
 
@@ -40,6 +45,7 @@ def facts(
         config: Settled settings.
         seed: Of the run.
         actions: Every expert action [-].
+        states: Every speed [m/s], previous acceleration and previous steering [-].
         num_epochs_done: Complete epochs [-].
     """
     return {
@@ -47,6 +53,7 @@ def facts(
         "seed": str(seed),
         "number of pairs": str(len(actions)),
         "digest of the actions": checkpoint.digest({"actions": actions})[:12],
+        "digest of the states": checkpoint.digest({"states": states})[:12],
         "complete epochs": str(num_epochs_done),
         "version of torch": torch.__version__,
     }

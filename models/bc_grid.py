@@ -68,10 +68,12 @@ class BcGridLearner(Learner):
         with one_thread():
             log_probabilities = self.log_probabilities(bev, state)
         actions = action_grid(settings.points, device=log_probabilities.device)
+        log_areas = _cell_areas(settings.points, device=log_probabilities.device).log()
+        log_densities = log_probabilities - log_areas
         if settings.choice == "argmax":
-            areas = _cell_areas(settings.points, device=log_probabilities.device)
-            return actions[(log_probabilities - areas.log()).argmax(dim=1)]
-        probabilities = torch.softmax(log_probabilities / settings.temperature, dim=1)
+            return actions[log_densities.argmax(dim=1)]
+        # The density is tempered, so that the coldest sample is the densest point.
+        probabilities = torch.softmax(log_densities / settings.temperature + log_areas, dim=1)
         return actions[draw_categorical(probabilities, 1, generator=generator).squeeze(1)]
 
     @torch.no_grad()

@@ -13,18 +13,21 @@ from models.threads import one_thread
 POINTS = 65
 """Points along each action component at which distributions are compared; two of them lie 0.03 apart."""
 
+KEPT = ("experts.density",)
+"""Tensors that stay float32: rare actions have densities that float16 would make zero, and a search starts by their inverse."""
+
 
 def halved(tensors: Mapping[str, Tensor]) -> dict[str, Tensor] | None:
     """Round tensors from float32 to float16.
 
     Args:
-        tensors: Weights by name; those of other types stay as they are.
+        tensors: Weights by name; those of other types, and those of `KEPT`, stay as they are.
 
     Returns:
         The rounded ones; None if a number is too large for float16.
     """
     rounded = {
-        name: tensor.half() if tensor.dtype == torch.float32 else tensor
+        name: tensor.half() if tensor.dtype == torch.float32 and name not in KEPT else tensor
         for name, tensor in tensors.items()
     }
     overflows = any(not tensor.isfinite().all() for tensor in rounded.values())

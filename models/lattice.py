@@ -16,6 +16,8 @@ from models.interfaces import ACTION_BOUND
 # Between lattice points of a Gaussian the interpolated logarithm is off by 1 / (8 * 16^2), 0.0005 nats.
 POINTS_A_KERNEL = 16
 MOST_POINTS = 1025
+# A standard deviation below this has fewer than 16 points [-].
+NARROWEST = 2 * ACTION_BOUND * POINTS_A_KERNEL / (MOST_POINTS - 1)
 CENTRES_AT_A_TIME = 4096
 # Far from all kernels a density is nothing; its logarithm stays a number.
 LEAST_DENSITY = 1e-300

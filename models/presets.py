@@ -74,7 +74,7 @@ def _effective(method: Method, *, epochs: int, negatives: int) -> LearnerConfig:
             sigma=0.2,
             clip=False,
             uniform_share=0.5,
-            correction="ranking",
+            correction="ranking" if method == "da-ibc" else "none",
         ),
         langevin_negatives=LangevinNegativesConfig(
             chain=ChainConfig(iterations=25), penalty_margin=10.0

@@ -74,7 +74,11 @@ def fit(
     agreement.require_same(
         team,
         agreement.facts(
-            learner.config, seed=seed, actions=run.actions, num_epochs_done=len(history)
+            learner.config,
+            seed=seed,
+            actions=run.actions,
+            states=demonstrations.states,
+            num_epochs_done=len(history),
         ),
     )
     if on_ready is not None:

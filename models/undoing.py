@@ -59,6 +59,8 @@ def without_weights(
     Returns:
         Log of the density without weights, up to a constant of each observation [nats].
     """
+    if settings.weighting == "none":
+        return log_density
     axis = lattice.coordinates(settings.bandwidth, demonstrated.device)
     density = action_density(demonstrated, settings)
     weights = _log_weights(axis, settings, demonstrated, density).float()

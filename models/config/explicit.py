@@ -25,7 +25,8 @@ class BetaConfig:
     inference: Literal["mode", "mean", "sample"] = "mode"
 
     def __post_init__(self) -> None:
-        require(self, "label_clamp", 0 < self.label_clamp < 0.5, "a number in (0, 0.5)")
+        # In float32 the other end of a smaller one is 1.
+        require(self, "label_clamp", 1e-7 <= self.label_clamp < 0.5, "a number in [1e-7, 0.5)")
         require_not_negative(self, "label_noise")
         require_not_negative(self, "entropy_bonus")
 

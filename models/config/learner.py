@@ -67,6 +67,22 @@ class LearnerConfig:
             self.beta.entropy_bonus == 0 or self.method != "bc-mixture",
             "0 for bc-mixture, as the entropy of a mixture has no closed form",
         )
+        require(
+            self.negatives,
+            "correction",
+            self.negatives.correction == "none" or self.method != "ibc-langevin",
+            "none for ibc-langevin, as nobody knows the density of what chains end at",
+        )
+        require(
+            self.evenness,
+            "speed_exponent",
+            self.evenness.speed_exponent == 0 or "speed" in self.network.state_inputs,
+            "0 where network.state_inputs has no speed, or what is not seen would tilt what is learnt",
+        )
         require_undoable(
-            self.sampler.undo, method=self.method, negatives=self.negatives, density=self.density
+            self.sampler.undo,
+            method=self.method,
+            negatives=self.negatives,
+            density=self.density,
+            evenness=self.evenness,
         )

@@ -1,5 +1,6 @@
 """Refuses to take out at inference what training did not put in, or took out itself."""
 
+from models.config.evenness import EvennessConfig
 from models.config.implicit import DensityConfig, NegativesConfig
 from models.config.samplers import Undo
 from models.errors import SettingError
@@ -9,7 +10,12 @@ ENERGIES = ("ibc", "da-ibc", "ibc-langevin")
 
 
 def require_undoable(
-    undo: Undo, *, method: str, negatives: NegativesConfig, density: DensityConfig
+    undo: Undo,
+    *,
+    method: str,
+    negatives: NegativesConfig,
+    density: DensityConfig,
+    evenness: EvennessConfig,
 ) -> None:
     """Refuse a setting `sampler.undo` that corrects for nothing, twice, or for what has no density.
 
@@ -18,6 +24,7 @@ def require_undoable(
         method: How the learner learns.
         negatives: What the energy is trained against.
         density: What 1 / KDE weighs.
+        evenness: How often pairs are drawn by what was seen.
 
     Raises:
         SettingError: If the settings do not go together.
@@ -28,7 +35,7 @@ def require_undoable(
             f"{', '.join(ENERGIES)}. Set sampler.undo=none."
         )
     if undo in {"negatives", "both"}:
-        _require_known_density(undo, method, negatives)
+        _require_known_density(undo, method, negatives, evenness)
     if undo in {"density", "both"} and density.weighting == "none":
         other = "negatives" if undo == "both" else "none"
         raise SettingError(
@@ -37,7 +44,9 @@ def require_undoable(
         )
 
 
-def _require_known_density(undo: Undo, method: str, negatives: NegativesConfig) -> None:
+def _require_known_density(
+    undo: Undo, method: str, negatives: NegativesConfig, evenness: EvennessConfig
+) -> None:
     given, other = f"sampler.undo is '{undo}'", "density" if undo == "both" else "none"
     if method == "ibc":
         raise SettingError(
@@ -51,6 +60,11 @@ def _require_known_density(undo: Undo, method: str, negatives: NegativesConfig) 
         raise SettingError(
             f"{given}, but negatives.correction is '{negatives.correction}', so training has corrected for them "
             f"already. Set sampler.undo={other}, or train with negatives.correction=none."
+        )
+    if evenness.speed_exponent > 0 and negatives.pool == "minibatch":
+        raise SettingError(
+            f"{given}, but minibatches that are drawn by speed (evenness.speed_exponent {evenness.speed_exponent:g}) make negatives "
+            f"of a density that is not kept. Train with negatives.pool=dataset, or set sampler.undo={other}."
         )
     if negatives.clip or negatives.sigma == 0:
         raise SettingError(

@@ -65,7 +65,7 @@ def test_the_exponent_tempers_and_the_cap_limits():
 
 
 @pytest.mark.parametrize("kind", ["joint", "product"])
-@pytest.mark.parametrize("bandwidth", [0.05, 0.2])
+@pytest.mark.parametrize("bandwidth", [0.01, 0.032, 0.2])
 def test_the_density_of_actions_is_the_exact_one_within_a_thousandth(kind, bandwidth, generator):
     actions = torch.rand(2000, 2, generator=generator) ** 3 * 2 - 1
     actions[:200] = torch.tensor([-1.0, 0.0])  # as waiting repeats itself

@@ -79,3 +79,10 @@ def test_an_epoch_draws_rare_speeds_more_often_and_leaves_what_is_done_at_them()
 def test_settings_without_a_meaning_are_refused(given: dict[str, float]) -> None:
     with pytest.raises(SettingError, match=next(iter(given))):
         EvennessConfig(**given)
+
+
+def test_a_speed_that_is_not_seen_cannot_be_evened_out() -> None:
+    blind = dataclasses.replace(quick("da-ibc").network, state_inputs=())
+    config = dataclasses.replace(quick("da-ibc"), network=blind)
+    with pytest.raises(SettingError, match=r"speed_exponent is 0.8; expected 0"):
+        dataclasses.replace(config, evenness=EvennessConfig(speed_exponent=0.8))

@@ -61,3 +61,10 @@ def test_variation_is_that_of_the_closed_form(small_config, batch):
     found = variations(one, other, batch.bev[:2], batch.state[:2], points=65)
     assert found == pytest.approx([0.25, 0.25], abs=0.005)
     assert variations(one, one, batch.bev[:1], batch.state[:1]) == pytest.approx([0.0], abs=1e-12)
+
+
+def test_densities_of_rare_actions_do_not_vanish() -> None:
+    density = torch.tensor([1.0, 1.2e-8])
+    kept = halved({"experts.density": density})
+    assert kept is not None
+    assert torch.equal(kept["experts.density"], density)

@@ -5,7 +5,13 @@ import pytest
 import torch
 
 from models import lattice, undoing
-from models.config import DensityConfig, LearnerConfig, NegativesConfig, SamplerConfig
+from models.config import (
+    DensityConfig,
+    EvennessConfig,
+    LearnerConfig,
+    NegativesConfig,
+    SamplerConfig,
+)
 from models.density import action_density, inverse_weights, kernel_density
 from models.errors import SettingError
 from models.expert_actions import ExpertActions
@@ -168,3 +174,11 @@ def test_weights_are_taken_out_of_any_density_as_out_of_an_energy(demonstrated, 
         said, anywhere, settings=config.density, demonstrated=demonstrated
     )
     torch.testing.assert_close(found, tilt_of(config, demonstrated, anywhere)[0])
+
+
+def test_minibatches_drawn_by_speed_make_negatives_that_cannot_be_undone():
+    evened = EvennessConfig(speed_exponent=0.5)
+    with pytest.raises(SettingError, match=r"drawn by speed .* negatives.pool=dataset"):
+        dataclasses.replace(settings("negatives"), evenness=evened)
+    whole = dataclasses.replace(PLAIN, pool="dataset")
+    dataclasses.replace(settings("negatives", negatives=whole), evenness=evened)
