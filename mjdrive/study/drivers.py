@@ -1,5 +1,6 @@
 """Who drives in a study, small enough to be sent to another process: a trained run with its way to act, or a reference."""
 
+import dataclasses
 import functools
 import json
 from collections.abc import Callable
@@ -17,6 +18,7 @@ from mjdrive.simulation.simulation import Simulation
 from mjdrive.study.checkpoints import digest
 from mjdrive.town.rightmost import rightmost
 from models import checkpoint, serialization
+from models.config import Precision
 from models.errors import ModelsError
 from models.interfaces import Learner
 
@@ -30,6 +32,7 @@ class Who:
         digest: SHA-256 of the weights, hexadecimal; empty for a reference.
         run: Folder of the trained run; None for a reference.
         acting: Changes to the settings that it was trained with.
+        precision: Number format to score actions in where the settings of an agent leave it open.
         reference: Which reference it is; None for an agent.
     """
 
@@ -37,18 +40,20 @@ class Who:
     digest: str = ""
     run: Path | None = None
     acting: tuple[str, ...] = ()
+    precision: Precision = "float32"
     reference: Reference | None = None
 
 
-def agent(name: str, run: Path, acting: tuple[str, ...]) -> Who:
+def agent(name: str, run: Path, acting: tuple[str, ...], precision: Precision) -> Who:
     """An agent in a way to act.
 
     Args:
         name: Of its files.
         run: Folder of the trained run.
         acting: Changes to the settings that it was trained with.
+        precision: Number format to score actions in where its settings leave it open.
     """
-    return Who(name, digest(run), run, acting)
+    return Who(name, digest(run), run, acting, precision)
 
 
 def load_learner(who: Who) -> Learner:
@@ -67,13 +72,20 @@ def load_learner(who: Who) -> Learner:
             f"The run '{who.run}' has changed since the study began. Run the same command again."
         )
     learner.config = acting_changed(learner.config, who.acting)
+    sampler = learner.config.sampler
+    if sampler.precision == "auto":  # else each machine would settle on its own
+        sampler = dataclasses.replace(sampler, precision=who.precision)
+        learner.config = dataclasses.replace(learner.config, sampler=sampler)
     return learner
 
 
 @functools.lru_cache(maxsize=1)
 def load_pilot(who: Who) -> Pilot:
-    """Load an agent; the last one is kept, as many drives follow each other."""
-    return Pilot(load_learner(who), name=who.name)
+    """Load an agent; the last one is kept, as many drives follow each other.
+
+    It acts on the CPU everywhere, so that drives do not depend on who has a GPU.
+    """
+    return Pilot(load_learner(who), name=who.name, device="cpu")
 
 
 def drive(

@@ -13,6 +13,7 @@ from mjdrive.study.driving import DriveJob
 from mjdrive.study.folder import StudyFolder
 from mjdrive.study.forks import ForkJob, chosen_approaches
 from mjdrive.study.judging import JudgeJob
+from models.config import Precision
 
 LONG = "long"
 """Name of the long drive."""
@@ -71,7 +72,12 @@ def plan_references(config: StudyConfig, folder: StudyFolder) -> tuple[ArmPlan, 
 
 
 def plan_arms(
-    config: StudyConfig, folder: StudyFolder, runs: dict[str, Path], town: Town
+    config: StudyConfig,
+    folder: StudyFolder,
+    runs: dict[str, Path],
+    town: Town,
+    *,
+    precision: Precision,
 ) -> tuple[ArmPlan, ...]:
     """What the agents do once they are trained.
 
@@ -80,15 +86,23 @@ def plan_arms(
         folder: Its folder.
         runs: Run folder of each agent, by name.
         town: Where they drive.
+        precision: Number format to score actions in where their settings leave it open.
     """
     approaches = chosen_approaches(town, config.forks)
     return tuple(
-        _plan_arm(it, config, folder, runs[it.agent.name], approaches) for it in arm_agents(config)
+        _plan_arm(
+            it,
+            config,
+            folder,
+            drivers.agent(it.name, runs[it.agent.name], it.arm.acting, precision),
+            approaches,
+        )
+        for it in arm_agents(config)
     )
 
 
 def plan_progress(
-    config: StudyConfig, folder: StudyFolder, runs: dict[str, Path]
+    config: StudyConfig, folder: StudyFolder, runs: dict[str, Path], *, precision: Precision
 ) -> tuple[ProgressPlan, ...]:
     """What the kept checkpoints of the methods drive; ablations make no progress that anybody looks at.
 
@@ -96,6 +110,7 @@ def plan_progress(
         config: Settings of the study.
         folder: Its folder.
         runs: Run folder of each agent, by name.
+        precision: Number format to score actions in where their settings leave it open.
     """
     if config.progress_every == 0:
         return ()
@@ -107,7 +122,7 @@ def plan_progress(
         losses = checkpoints.losses(run)
         for epoch, checkpoint in sorted(checkpoints.kept_epochs(run).items()):
             who = drivers.agent(
-                f"{arm.name}-{agent.seed}-epoch-{epoch:04d}", checkpoint, arm.acting
+                f"{arm.name}-{agent.seed}-epoch-{epoch:04d}", checkpoint, arm.acting, precision
             )
             drives = _drives(
                 who, config, folder, count=config.progress_episodes, steps=config.progress_steps
@@ -131,9 +146,8 @@ def _plan_reference(name: Reference, config: StudyConfig, folder: StudyFolder) -
 
 
 def _plan_arm(
-    it: ArmAgent, config: StudyConfig, folder: StudyFolder, run: Path, approaches: tuple[str, ...]
+    it: ArmAgent, config: StudyConfig, folder: StudyFolder, who: Who, approaches: tuple[str, ...]
 ) -> ArmPlan:
-    who = drivers.agent(it.name, run, it.arm.acting)
     seed = it.agent.seed
     is_shown = it.is_main and not it.agent.variant.change and seed in config.detail_seeds
     forks = tuple(

@@ -17,6 +17,7 @@ from mjdrive.evaluation.choices import ChoiceStatistics
 from mjdrive.evaluation.forking import ForkOutcome
 from mjdrive.study.measures import Curve, DriveFigures, LandscapeFigures, Likelihood
 from mjdrive.study.situations import Moment
+from models.config import Precision
 
 STUDY = "study.json"
 RESULTS = "results.json"
@@ -35,6 +36,7 @@ class StudyRecord:
         learners: Settings that each variant is trained with, by its name, as JSON values by their dotted names.
         versions: Versions of the software.
         code: SHA-256 of the sources of mjdrive and models, hexadecimal: records hold figures that code derived.
+        precision: Number format that settings which leave it open mean in it: that of the CPU that it began on.
         towns: Digest of each town that is driven in, by name.
         car: Digest of the car that drives.
         data: Digest of the manifest of each data set that was there before, by name; the study collects the others.
@@ -45,6 +47,7 @@ class StudyRecord:
     learners: Mapping[str, dict[str, Any]]
     versions: Mapping[str, str]
     code: str
+    precision: Precision
     towns: Mapping[str, str]
     car: str
     data: Mapping[str, str] = field(default_factory=dict)

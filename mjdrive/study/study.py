@@ -1,5 +1,6 @@
 """A whole study: demonstrations, training, drives and judgement, tables and report, each gone on with where it stopped."""
 
+import dataclasses
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -28,6 +29,8 @@ from mjdrive.study.situations import situations
 from mjdrive.study.training import TrainingJob, train_all
 from mjdrive.town import library
 from mjdrive.vehicle import cars
+from models.config import Precision
+from models.energy_scoring import resolved
 
 Stage = Callable[[str, int], Report]
 """Told that a stage begins, and of how many things it consists; what comes back is told how far each of them is."""
@@ -69,7 +72,9 @@ class Study:
             WorkerError: If a process was lost.
         """
         require_buildable(self.config)
-        situations(library.load(self.config.town))  # which later stages look at, so that a town without them is refused
+        situations(
+            library.load(self.config.town)
+        )  # which later stages look at, so that a town without them is refused
         self._require_data()
         given = self._given_runs()
         begin(self.folder, self._record(given))
@@ -120,6 +125,7 @@ class Study:
             },
             versions=versions.all_versions(),
             code=versions.code_digest(),
+            precision=_precision(),
             towns={name: library.load(name).digest for name in names},
             car=cars.load().digest,
             data={name: dataset.digest(place) for name, place in self.data.items()},
@@ -157,6 +163,9 @@ class Study:
 
     def _training_job(self, agent: Agent, data: Path, run: Path, num_samples: int) -> TrainingJob:
         settings = learner_config(agent.variant)
+        if settings.optimiser.precision == "auto":
+            optimiser = dataclasses.replace(settings.optimiser, precision=_precision())
+            settings = dataclasses.replace(settings, optimiser=optimiser)
         optimiser = settings.optimiser
         num_training = num_samples - math.floor(optimiser.validation_share * num_samples)
         return TrainingJob(
@@ -176,8 +185,8 @@ class Study:
         town = library.load(self.config.town)
         place = Place(town, cars.load(), versions.all_versions())
         references = plan_references(self.config, self._names)
-        arms = plan_arms(self.config, self._names, runs, town)
-        progress = plan_progress(self.config, self._names, runs)
+        arms = plan_arms(self.config, self._names, runs, town, precision=_precision())
+        progress = plan_progress(self.config, self._names, runs, precision=_precision())
         drives = [job for it in (*references, *arms) for job in it.all_drives]
         drives += [job for it in progress for job in it.drives]
         drive_all(place, drives, executor=self.executor, report=stage("drive", len(drives)))
@@ -222,6 +231,11 @@ class Study:
         walk = self._names.data(HELD_OUT) if self.config.held_out_km else None
         work = Judging(place, walk, self.config.held_out_frames, self.config.seed)
         judge_all(work, jobs, executor=self.executor, report=stage("judge", len(jobs)))
+
+
+def _precision() -> Precision:
+    """What an open number format means in a study: drives are made on the CPU, so that of the CPU."""
+    return resolved("auto", "cpu")
 
 
 def _samples(place: Path) -> int:
