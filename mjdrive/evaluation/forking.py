@@ -166,6 +166,12 @@ def mean_outcome(outcomes: Sequence[ForkOutcome]) -> tuple[float, float | None]:
     return safe, float(np.mean(entropies)) if entropies else None
 
 
+def mean_taken(outcomes: Sequence[ForkOutcome]) -> float:
+    """Mean share of rollouts that drove safely through an exit [-]; a car that stops is safe, and takes none."""
+    assert outcomes, "a mean needs a moment"
+    return float(np.mean([sum(it.taken.values()) / it.rollouts for it in outcomes]))
+
+
 def _comes_to(simulation: Simulation, lane: Lane) -> bool:
     """Whether the car drives up to the end of a lane, not far before it and with no light against it."""
     is_green = lane.light is None or simulation.lights[lane.light] is Signal.GREEN

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from mjdrive.evaluation.forking import mean_outcome
+from mjdrive.evaluation.forking import mean_outcome, mean_taken
 from mjdrive.evaluation.metrics import RED_LIGHT_FACTOR
 from mjdrive.study.measures import Curve, DriveFigures
 from mjdrive.study.results import ArmResult
@@ -61,6 +61,11 @@ def _half(curve: Curve) -> float | None:
 def mode_precision(result: ArmResult) -> float | None:
     """Share of rollouts from moments before junctions that were still on the road 5 s later [-]."""
     return mean_outcome(result.forks)[0] if result.forks else None
+
+
+def exits_taken(result: ArmResult) -> float | None:
+    """Share of the same rollouts that drove safely through an exit, which one that stops does not [-]."""
+    return mean_taken(result.forks) if result.forks else None
 
 
 def conditional_entropy(result: ArmResult) -> float | None:

@@ -7,6 +7,7 @@ from mjdrive.config import StudyConfig, read_json
 from mjdrive.files import write_atomically
 from mjdrive.study.arm_figures import (
     conditional_entropy,
+    exits_taken,
     held_out_gain,
     junction_entropy,
     junction_gain,
@@ -111,6 +112,7 @@ def multimodality_table(config: StudyConfig, found: StudyResults) -> str:
         ("JS of turns [bit]", _agent(lambda it: it.choices.turn_divergence)),
         ("left / straight / right", turns),
         ("mode precision", _agent(mode_precision)),
+        ("exit taken", _agent(exits_taken)),
         ("conditional entropy", _agent(conditional_entropy)),
         ("modes at junctions", _agent(num_modes)),
         ("entropy at junctions [bit]", _agent(junction_entropy)),

@@ -11,6 +11,7 @@ from mjdrive.evaluation.forking import (
     ForkOutcome,
     find_forks,
     mean_outcome,
+    mean_taken,
     outcome,
 )
 from mjdrive.simulation.simulation import Simulation
@@ -83,6 +84,14 @@ def test_same_seed_lives_the_same_moments(forks: tuple[Fork, ...], simulation: S
     policy = Steers(0.0, 0.3, -0.3)
     first = outcome(simulation, forks[0], policy, seed=7, num_rollouts=4)
     assert outcome(simulation, forks[0], policy, seed=7, num_rollouts=4) == first
+
+
+def test_who_stops_is_safe_and_takes_no_exit() -> None:
+    stopped = ForkOutcome("a", 10, 1.0, {"l": 0, "r": 0}, None)
+    drove = ForkOutcome("b", 10, 0.9, {"l": 5, "r": 4}, 0.99)
+    assert mean_outcome([stopped])[0] == 1.0
+    assert mean_taken([stopped]) == 0.0
+    assert mean_taken([stopped, drove]) == pytest.approx(0.45)
 
 
 def test_means_leave_out_moments_without_a_choice() -> None:
