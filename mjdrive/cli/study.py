@@ -62,7 +62,7 @@ STUDIES = Path("studies")
     show_default=True,
     type=click.IntRange(min=1),
     metavar="N",
-    help="Processes: so many drives at once, and so many trainings, which share the cores.",
+    help="Processes: so many drives at once, and so many trainings, each on as many threads as --set threads=N says (1).",
 )
 @click.option(
     "--out",

@@ -83,14 +83,15 @@ class StudyConfig:
         demonstrations: What is learnt from.
         references: Who drives beside the agents.
         seeds: Training seeds of the methods [-].
-        ablation_seeds: Training seeds of the ablations [-].
+        ablation_seeds: Training seeds of the ablations, some of `seeds` [-].
         learning_town: Where demonstrations are collected.
+        threads: Threads of each training, which decide how its sums are rounded and so its weights [-].
         town: Where agents drive; a town that they have not seen.
         seed: Decides demonstrations, starts and lights of all drives, and what is drawn [-].
         episodes: Drives of each agent in each of its ways to act [-].
         steps: Control steps of each of them [-].
         long_steps: Control steps of one more drive of each main arm, for its path and what it sees in time; 0 for none [-].
-        detail_seeds: Training seeds whose agents make it, and whose landscapes and turns are kept for pictures [-].
+        detail_seeds: Training seeds, some of `seeds`, whose agents make it, and whose landscapes and turns are kept [-].
         progress_every: Epochs between two checkpoints that drive, for the progress of training; 0 for none [-].
         progress_episodes: Drives of each such checkpoint [-].
         progress_steps: Control steps of each of them [-].
@@ -108,6 +109,7 @@ class StudyConfig:
     seeds: tuple[int, ...] = (0, 1, 2)
     ablation_seeds: tuple[int, ...] = (0,)
     learning_town: str = "town01"
+    threads: int = 1
     town: str = "town02"
     seed: int = 0
     episodes: int = 10
@@ -126,6 +128,7 @@ class StudyConfig:
         self._check_names()
         for name in ("episodes", "steps", "progress_episodes", "progress_steps", "held_out_frames"):
             _check(self, name, getattr(self, name) >= 1, "at least 1")
+        _check(self, "threads", self.threads >= 1, "at least 1")
         for name in ("long_steps", "progress_every", "forks", "held_out_km"):
             _check(self, name, getattr(self, name) >= 0, "0 or more")
         _check(self, "fork_rollouts", self.fork_rollouts >= 1, "at least 1")
@@ -135,6 +138,11 @@ class StudyConfig:
             good = len(set(seeds)) == len(seeds) and all(0 <= seed < 2**32 for seed in seeds)
             _check(self, name, good, "different numbers from 0 to 4294967295")
         _check(self, "seeds", len(self.seeds) >= 1, "at least one")
+        for name in ("ablation_seeds", "detail_seeds"):
+            known = ", ".join(map(str, self.seeds))
+            _check(
+                self, name, set(getattr(self, name)) <= set(self.seeds), f"some of seeds, {known}"
+            )
 
     def _check_names(self) -> None:
         """Refuse names that are no folder names, that are there twice, or that name nothing."""

@@ -176,6 +176,7 @@ class Study:
             run=run,
             keep_every=0 if agent.variant.change else self.config.progress_every,
             num_steps=optimiser.epochs * math.ceil(num_training / optimiser.batch_size),
+            threads=self.config.threads,
         )
 
     def _evaluate(

@@ -1,9 +1,11 @@
 """Train the agents of a study, each in a run folder of its own that can be gone on with."""
 
-from collections.abc import Callable, Sequence
-from contextlib import closing
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+
+import torch
 
 from mjdrive import versions
 from mjdrive.execution.work import Executor, Tell
@@ -26,6 +28,7 @@ class TrainingJob:
         run: Run folder.
         keep_every: Epochs between two checkpoints that are kept; 0 keeps none [-].
         num_steps: Steps of the whole run [-].
+        threads: That torch may use; the weights depend on it [-].
     """
 
     name: str
@@ -35,11 +38,12 @@ class TrainingJob:
     run: Path
     keep_every: int
     num_steps: int
+    threads: int
 
 
 @dataclass(frozen=True, slots=True)
 class Training:
-    """Trains runs, one after the other; a process that shares the machine with others has its share of threads.
+    """Trains runs, one after the other, each with the threads that the study has for it, however many train beside it.
 
     Attributes:
         versions: Of the software where training was asked for.
@@ -64,7 +68,7 @@ def train_all(
 
     Args:
         jobs: What to train.
-        executor: Where; with several processes, each run has a share of the threads.
+        executor: Where; the weights do not depend on how many processes train at once.
         report: Told the name of a run, its steps so far and its steps in all.
 
     Raises:
@@ -92,12 +96,24 @@ def _train(job: TrainingJob, tell: Tell) -> None:
         is_begun = True
         tell(step.step)
 
-    train(
-        job.config,
-        data=job.data,
-        run=job.run,
-        seed=job.seed,
-        resume=resumes,
-        on_step=on_step,
-        on_epoch=lambda _: keep_epoch(job.run, every=job.keep_every),
-    )
+    with _threads(job.threads):
+        train(
+            job.config,
+            data=job.data,
+            run=job.run,
+            seed=job.seed,
+            resume=resumes,
+            on_step=on_step,
+            on_epoch=lambda _: keep_epoch(job.run, every=job.keep_every),
+        )
+
+
+@contextmanager
+def _threads(count: int) -> Iterator[None]:
+    """Let torch use so many threads, and afterwards as many as before."""
+    before = torch.get_num_threads()
+    torch.set_num_threads(count)
+    try:
+        yield
+    finally:
+        torch.set_num_threads(before)
