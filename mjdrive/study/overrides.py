@@ -32,7 +32,7 @@ def chosen(
         episodes: Drives of each agent in each of its ways to act [-].
         steps: Control steps of each of them [-].
         assignments: Other changes, each as "long_steps=0" for the study, "optimiser.epochs=5" for every learner or
-            "da-ibc:optimiser.epochs=5" for those of a method.
+            "da-ibc:optimiser.epochs=5" for those of a method. With "seeds=[4,5]" it is as with `seeds`.
         ablations: Whether the ablations of the preset are kept.
 
     Raises:
@@ -42,14 +42,7 @@ def chosen(
     study = presets.preset(preset, methods=methods)
     if not ablations:
         study = presets.without_ablations(study)
-    if seeds is not None:
-        study = dataclasses.replace(
-            study,
-            seeds=tuple(seeds),
-            ablation_seeds=_among(study.ablation_seeds, seeds),
-            detail_seeds=_among(study.detail_seeds, seeds),
-        )
-    numbers = {"episodes": episodes, "steps": steps}
+    numbers = {"episodes": episodes, "steps": steps, "seeds": seeds}
     values: dict[str, object] = {name: it for name, it in numbers.items() if it is not None}
     for assignment in assignments:
         name, equals, text = assignment.partition("=")
@@ -61,8 +54,19 @@ def chosen(
             study = _with_learners(study, name, text)
         else:
             values[_known(name)] = _value(text)
+    wanted = values.get("seeds")
+    if isinstance(wanted, Sequence) and not isinstance(wanted, str):
+        values = _some_of(study, wanted) | values
     plain = json.loads(config.to_json(study)) | values
     return config.from_dict(StudyConfig, plain)
+
+
+def _some_of(study: StudyConfig, seeds: Sequence[int]) -> dict[str, object]:
+    """Seeds of ablations and details that go with seeds of methods."""
+    return {
+        "ablation_seeds": _among(study.ablation_seeds, seeds),
+        "detail_seeds": _among(study.detail_seeds, seeds),
+    }
 
 
 def _among(wanted: Sequence[int], seeds: Sequence[int]) -> tuple[int, ...]:

@@ -150,7 +150,7 @@ def ablation_table(config: StudyConfig, found: StudyResults) -> str:
         ("mode precision", _agent(mode_precision)),
         ("held-out log-likelihood [nats]", _agent(held_out_gain)),
     )
-    shown = [Row(base.label, kept or base.results), *(Row(it.change, it.results) for it in changed)]
+    shown = [Row(base.label, kept), *(Row(it.change, it.results) for it in changed)]
     return _table(shown, columns)
 
 

@@ -102,6 +102,12 @@ def test_settings_of_the_study_and_of_learners_are_changed() -> None:
     assert learnt["bc-beta"].negatives.count != 5
 
 
+def test_seeds_are_set_as_they_are_given() -> None:
+    assert chosen("standard", assignments=["seeds=[4,5]"]) == chosen("standard", seeds=[4, 5])
+    study = chosen("standard", assignments=["seeds=[4,5]", "detail_seeds=[5]"])
+    assert (study.seeds, study.detail_seeds, study.ablation_seeds) == ((4, 5), (5,), (4,))
+
+
 def test_what_an_ablation_changes_is_not_changed_back() -> None:
     study = chosen("standard", assignments=["network.action_gain=8"])
     learnt = {it.name: learner_config(it) for it in study.variants}
@@ -118,6 +124,9 @@ def test_what_an_ablation_changes_is_not_changed_back() -> None:
         ("episodes=0", "episodes is 0; expected at least 1"),
         ("steps=many", "steps"),
         ("variants=1", "setting of a study 'variants'"),
+        ("detail_seeds=[7]", r"detail_seeds is \(7,\); expected some of seeds, 0"),
+        ("ablation_seeds=[7]", r"ablation_seeds is \(7,\); expected some of seeds, 0"),
+        ("seeds=4", "seeds"),
     ],
 )
 def test_changes_without_a_meaning_are_refused(assignment: str, said: str) -> None:
