@@ -1,13 +1,13 @@
 """What the ablation picture shows: each change of DA-IBC, and the ways to act of each method, by the main figures."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from mjdrive.evaluation.bootstrap import Interval
 from mjdrive.study.figure_looks import Look, own_arms
 from mjdrive.study.figures_ablation import AblationRow
 from mjdrive.study.measures import DriveFigures
 from mjdrive.study.reading import StudyFiles
-from mjdrive.study.results import ArmResult
+from mjdrive.study.results import ArmResult, StudyResults
 from mjdrive.study.rows import Row, interval, ratio
 
 COLUMNS = (
@@ -31,7 +31,7 @@ def ablation_groups(
 
     Returns:
         First every change of a setting below the main arm of DA-IBC, or of the first method if there is none; then the
-        ways to act of each method that has several.
+        ways to act of each method that has several. All rows of a group are by the same training seeds.
     """
     config = study.record.settings
     own = own_arms(config)
@@ -42,26 +42,40 @@ def ablation_groups(
     for name in own:
         by_method.setdefault(methods[arms[name].variant], []).append(name)
     base = by_method.get("da-ibc", [own[0]])[0]
-    changed = [
-        _row(study, it.name, it.change or changes[it.variant], looks)
-        for it in config.arms
-        if it.name not in own
+    changed = [it.name for it in config.arms if it.name not in own]
+    labels = {name: looks[name].label for name in own}
+    labels |= {name: arms[name].change or changes[arms[name].variant] for name in changed}
+    groups = [*([[base, *changed]] if changed else []), *by_method.values()]
+    return tuple(
+        tuple(
+            _row(study, row, looks[name]) for name, row in same_seeds(study.results, names, labels)
+        )
+        for names in groups
+    )
+
+
+def same_seeds(
+    found: StudyResults, names: Sequence[str], labels: Mapping[str, str]
+) -> list[tuple[str, Row]]:
+    """Rows of arms that drove, each by the training seeds that all of them have, with the names of the arms."""
+    by_arm = {name: [it for it in found.arms if it.arm == name] for name in names}
+    driven = {name: results for name, results in by_arm.items() if results}
+    shared = set.intersection(*({it.seed for it in results} for results in driven.values()))
+    return [
+        (name, Row(labels[name], tuple(it for it in results if it.seed in shared)))
+        for name, results in driven.items()
     ]
-    labelled = {name: _row(study, name, looks[name].label, looks) for name in own}
-    groups = [tuple(labelled[name] for name in names) for names in by_method.values()]
-    return ((labelled[base], *changed), *groups) if changed else tuple(groups)
 
 
-def _row(study: StudyFiles, arm: str, label: str, looks: Mapping[str, Look]) -> AblationRow:
-    row = Row(label, tuple(it for it in study.results.arms if it.arm == arm))
+def _row(study: StudyFiles, row: Row, look: Look) -> AblationRow:
     expert = [it for it in study.results.references if it.arm == "expert"]
     distances = row.per_drive(lambda drive: drive.distance_m)
     ratios = [
         ratio(distances, Row("", (it,)).per_drive(lambda drive: drive.distance_m)) for it in expert
     ]
     return AblationRow(
-        label=label,
-        colour=looks[arm].colour,
+        label=row.label,
+        colour=look.colour,
         intervals=(
             ratios[0] if ratios else None,
             _per_drive(row, lambda drive: drive.penalty),

@@ -44,7 +44,7 @@ CAPTIONS = {
     "ablation": (
         "What single changes are worth",
         "One row a change: dot and 95 % bootstrap interval over training seeds and, where a figure belongs to single drives, "
-        "over drives. The first row of each group, in bold, is what the others change; its value is drawn on as a dotted line. "
+        "over drives, by the training seeds that all rows of a group have. The first row of each group, in bold, is what the others change; its value is drawn on as a dotted line. "
         "One seed says nothing of the chance of training.",
     ),
     "video": (
