@@ -7,6 +7,9 @@ from mjdrive.evaluation.metrics import RED_LIGHT_FACTOR
 from mjdrive.study.measures import Curve, DriveFigures
 from mjdrive.study.results import ArmResult
 
+_STEP_S = 0.1
+"""A control step, by which a drive may fall short of its time [s]."""
+
 
 def total(figure: Callable[[DriveFigures], float]) -> Callable[[ArmResult], float]:
     """The sum of a figure over the drives of an agent, in its own unit."""
@@ -56,6 +59,14 @@ def _half(curve: Curve) -> float | None:
     """Where a curve comes to a half; None if it does not."""
     reached = zip(curve.x, curve.share, strict=True)
     return next((x for x, share in reached if share >= 0.5), None)
+
+
+def recall_by(result: ArmResult, seconds: float) -> float | None:
+    """Branch recall after so long in the drives of the tables and then the long drive [-]; None if they end before."""
+    if result.recall.x[-1] < seconds - _STEP_S:
+        return None
+    reached = zip(result.recall.x, result.recall.share, strict=True)
+    return max(share for x, share in reached if x <= seconds)
 
 
 def mode_precision(result: ArmResult) -> float | None:

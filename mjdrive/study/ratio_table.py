@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from mjdrive.config import StudyConfig
-from mjdrive.study.arm_figures import total
+from mjdrive.study.arm_figures import recall_by, total
 from mjdrive.study.measures import DriveFigures
 from mjdrive.study.results import ArmResult, StudyResults
 from mjdrive.study.rows import (
@@ -20,6 +20,7 @@ BARS = {
     "infraction penalty per episode": ("0.66", "0.85", "0.97"),
     "distance / the expert's": ("about 1.1, red lights run", "0.90", "0.97"),
     "branch recall / the expert's": ("whole city", "0.90", "1.00"),
+    "branch recall in 10,000 s": ("none", "0.95", "1.00"),
     "JS of turns [bit]": (NOTHING, "0.05", "0.02"),
     "collisions per 3,000 s": ("no crashes", "0.5", "0"),
     "off road [s] per 3,000 s": (NOTHING, "5", "0"),
@@ -28,6 +29,9 @@ BARS = {
 
 EPISODE_STEPS, ALL_STEPS = 3000, 30_000
 """Control steps of an episode, and of all of an agent, that these are set for [-]."""
+
+LONG_SECONDS = 10_000.0
+"""Time that a policy should have seen the whole town in, drives and long drive together [s]."""
 
 REFERENCE_SECONDS = 3000.0
 """Time that collisions and time off the road are counted over [s]."""
@@ -63,6 +67,7 @@ def _cells(row: Row, expert: ArmResult | None) -> list[str]:
         cell(row.per_drive(_penalty)),
         _distance_ratio(row, expert),
         _recall_ratio(row, expert),
+        _long_recall(row),
         cell(row.per_agent(lambda it: it.choices.turn_divergence)),
         cell(row.per_agent(lambda it: _per_time(it, lambda drive: drive.collisions))),
         cell(row.per_agent(lambda it: _per_time(it, lambda drive: drive.off_road_s))),
@@ -90,6 +95,14 @@ def _recall_ratio(row: Row, expert: ArmResult | None) -> str:
         return NOTHING
     whole = expert.choices.recall
     return cell(row.per_agent(lambda it: it.choices.recall / whole))
+
+
+def _long_recall(row: Row) -> str:
+    """By those agents whose drives and long drive are long enough together."""
+    driven = tuple(it for it in row.results if recall_by(it, LONG_SECONDS) is not None)
+    if not driven:
+        return "not driven"
+    return cell(Row(row.label, driven).per_agent(lambda it: recall_by(it, LONG_SECONDS)))
 
 
 def _per_time(result: ArmResult, figure: Callable[[DriveFigures], float]) -> float:

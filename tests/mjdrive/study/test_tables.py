@@ -9,6 +9,7 @@ from mjdrive.config import Arm, StudyConfig, Variant
 from mjdrive.evaluation.choices import ChoiceStatistics
 from mjdrive.evaluation.forking import ForkOutcome
 from mjdrive.study import arm_figures, rows, tables
+from mjdrive.study.ablation_rows import same_seeds
 from mjdrive.study.measures import Curve, DriveFigures, Likelihood
 from mjdrive.study.ratio_table import ratio_table
 from mjdrive.study.results import ArmResult, DataResult, StudyResults
@@ -139,6 +140,34 @@ def test_ratios_are_those_to_the_expert_beside_the_bars(
     assert cells(table, "PID expert, random walk")["distance / the expert's"].startswith("1.00")
     short = dataclasses.replace(study[0], steps=100)
     assert "bar" not in ratio_table(short, study[1]), "the bars are for ten drives of 300 s"
+
+
+def test_recall_in_ten_thousand_seconds_is_that_of_who_drove_so_long(
+    study: tuple[StudyConfig, StudyResults],
+) -> None:
+    column = "branch recall in 10,000 s"
+    config, found = study
+    table = ratio_table(config, found)
+    assert cells(table, "bar")[column] == "0.95"
+    assert cells(table, "DA-IBC, sampled")[column] == "not driven"
+    first, *others = found.arms
+    curve = Curve((0.0, 3000.0, 9000.0, 10_500.0, 11_000.0), (0.0, 0.5, 0.875, 1.0, 1.0))
+    long = dataclasses.replace(first, recall=curve, long_drive=drive(9000))
+    table = ratio_table(config, dataclasses.replace(found, arms=(long, *others)))
+    assert cells(table, "DA-IBC, sampled")[column].startswith("0.88")
+
+
+def test_the_picture_of_ablations_compares_the_same_seeds(
+    study: tuple[StudyConfig, StudyResults],
+) -> None:
+    labels = {"sample": "DA-IBC", "plain": "plain head"}
+    both = same_seeds(study[1], ["sample", "plain"], labels)
+    assert [(name, [it.seed for it in row.results]) for name, row in both] == [
+        ("sample", [0]),
+        ("plain", [0]),
+    ]
+    (alone,) = same_seeds(study[1], ["sample"], labels)
+    assert [it.seed for it in alone[1].results] == [0, 1]
 
 
 def test_a_standstill_expert_has_no_ratio(study: tuple[StudyConfig, StudyResults]) -> None:
