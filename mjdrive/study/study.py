@@ -224,6 +224,7 @@ class Study:
             on_video=lambda done: report(f"video {done}", 1, 1),
         )
         report = stage("report", 1)
+            weights_of=lambda arm, seed: who[arm, seed].digest,
         write_report(self.folder)
         report("report", 1, 1)
 

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from mjdrive.datatypes import Town
 from mjdrive.episodes import store
+from mjdrive.files import write_atomically
 from mjdrive.study.results import Turn
 from mjdrive.study.turn_video import Drive, write_turns
 from models.interfaces import Learner
@@ -23,9 +24,10 @@ def write_videos(
     town: Town,
     folder: Path,
     *,
+    weights_of: Callable[[str, int], str],
     on_video: Callable[[int], None] = lambda done: None,
 ) -> None:
-    """Write the videos that are missing.
+    """Write the videos that are missing, or show other turns or weights than those that are there now.
 
     Args:
         turns: Drives that were kept, of any agents.
@@ -33,6 +35,7 @@ def write_videos(
         labels: What each arm is called, by name.
         town: Where they were driven.
         folder: Of the study; the videos go into a folder in it.
+        weights_of: Tells the digest of its weights, likewise.
         on_video: Told the number of videos that are there.
 
     Raises:
@@ -41,15 +44,25 @@ def write_videos(
     agents = list(dict.fromkeys((it.arm, it.seed) for it in turns))
     for done, (arm, seed) in enumerate(agents, start=1):
         path = folder / video_file(arm, seed)
-        if not path.is_file():
-            drives = [
-                Drive(WORDS[it.move], store.read(folder / it.file))
-                for it in turns
-                if (it.arm, it.seed) == (arm, seed)
-            ]
-            title = f"{labels[arm]}, seed {seed}: from one moment in {town.name}"
+        made_from = path.with_suffix(".sha256")
+        shown = [it for it in turns if (it.arm, it.seed) == (arm, seed)]
+        title = f"{labels[arm]}, seed {seed}: from one moment in {town.name}"
+        digest = _digest(shown, folder, title, weights_of(arm, seed))
+        if not (path.is_file() and made_from.is_file() and made_from.read_text() == digest):
+            drives = [Drive(WORDS[it.move], store.read(folder / it.file)) for it in shown]
             write_turns(drives, learner_of(arm, seed).eval(), town, path, title=title)
+            write_atomically(
+                made_from, digest.encode()
+            )  # last, so that it never speaks of an older video
         on_video(done)
+
+
+def _digest(turns: Sequence[Turn], folder: Path, title: str, weights: str) -> str:
+    """SHA-256 of all that a video of some turns shows, hexadecimal."""
+    files = [folder / it.file for it in turns]
+    drives = [store.digest(it.read_bytes()) if it.is_file() else "missing" for it in files]
+    moves = [it.move for it in turns]
+    return store.digest("\n".join((title, weights, *moves, *drives)).encode())
 
 
 def video_file(arm: str, seed: int) -> str:
