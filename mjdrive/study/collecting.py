@@ -78,7 +78,8 @@ def collections(
         if it.name not in given
     ]
     if config.held_out_km:
-        walk = CollectConfig(random_walk_km=config.held_out_km)
+        # Undisturbed: what is asked is how likely the expert's own driving is, not its way back from disturbances.
+        walk = CollectConfig(random_walk_km=config.held_out_km, disturbance=None)
         wanted.append(_planned(config.town, folder.data(HELD_OUT), walk, config.seed + 1))
     return tuple(wanted)
 

@@ -1,7 +1,8 @@
 """The expert's walk through the town that agents drive in: how likely do agents find what it does there?
 
-None of them has seen the town. The likelihood is exact on the grid: the density of every method is told at all points,
-normalised over them, and read at the point nearest to what the expert did, so that all methods can be compared.
+None of them has seen the town. The density of every method is told at all points of one grid, normalised over them, and
+read at the point nearest to what the expert did, so that all methods can be compared. Explicit methods and energies tell
+it exactly; that of diffusion and flow is approximate, from an ODE of a few steps that ends at a floor of noise.
 """
 
 import math
