@@ -1,5 +1,8 @@
 """`mjdrive study`: demonstrations, trained agents, drives, tables, figures and report in one command."""
 
+import shlex
+import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -112,6 +115,7 @@ def study(
         _data_sets(data, config.demonstrations[0].name),
         runs,
         executor_for(jobs=jobs),
+        _command(sys.argv),
     )
     with ended_by_sigterm(), stage_bars() as stage:
         results = work.run(stage)
@@ -136,6 +140,11 @@ def _close(results: "StudyResults", folder: Path, preset: str) -> None:
         },
         next_command=f"python -m webbrowser {folder / report.REPORT}",
     )
+
+
+def _command(arguments: Sequence[str]) -> str:
+    """What was typed, for a shell to read again."""
+    return shlex.join(["mjdrive", *arguments[1:]])
 
 
 def _listed(text: str) -> list[str]:

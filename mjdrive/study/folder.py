@@ -101,7 +101,7 @@ def read(kind: type[Record], path: Path) -> Record | None:
 
 def _differing(found: StudyRecord, wanted: StudyRecord) -> list[str]:
     """Names of what two studies do not have in common."""
-    names = [name for name in StudyRecord.__slots__ if name != "settings"]
+    names = [name for name in StudyRecord.__slots__ if name not in ("settings", "command")]
     differing = [name for name in names if getattr(found, name) != getattr(wanted, name)]
     settings = type(found.settings).__slots__
     return differing + [

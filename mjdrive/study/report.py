@@ -84,7 +84,7 @@ def write_report(folder: Path) -> Path:
     }
     page = _template().render(
         config=config,
-        command=f"mjdrive study --preset {config.preset}",
+        command=study.record.command or "mjdrive.study.study.Study, with the settings below",
         sections={title: figures for title, figures in sections.items() if figures},
         facts=_facts(study),
         settings=to_json(study.record),

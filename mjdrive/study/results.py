@@ -41,6 +41,7 @@ class StudyRecord:
         car: Digest of the car that drives.
         data: Digest of the manifest of each data set that was there before, by name; the study collects the others.
         runs: Digest of the weights of each agent that was trained before, by name; the study trains the others.
+        command: With which it was begun, all options included; empty if that was none. It may go on with another one.
     """
 
     settings: StudyConfig
@@ -52,6 +53,7 @@ class StudyRecord:
     car: str
     data: Mapping[str, str] = field(default_factory=dict)
     runs: Mapping[str, str] = field(default_factory=dict)
+    command: str = ""
 
 
 @dataclass(frozen=True, slots=True)

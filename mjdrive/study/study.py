@@ -46,6 +46,7 @@ class Study:
         data: Folders of data sets that are there already, by name; the study collects the others.
         trained: Folder with trained runs; agents that have none there are trained in the study.
         executor: Where drives are made and agents are trained; the drives do not depend on it.
+        command: What was typed to begin it, for the report; empty if nothing was.
     """
 
     config: StudyConfig
@@ -53,6 +54,7 @@ class Study:
     data: Mapping[str, Path] = field(default_factory=dict)
     trained: Path | None = None
     executor: Executor = field(default_factory=SerialExecutor)
+    command: str = ""
 
     def run(self, stage: Stage) -> StudyResults:
         """Do what is missing.
@@ -130,6 +132,7 @@ class Study:
             car=cars.load().digest,
             data={name: dataset.digest(place) for name, place in self.data.items()},
             runs={name: checkpoints.digest(run) for name, run in given.items()},
+            command=self.command,
         )
 
     def _collect(self, stage: Stage) -> dict[str, Path]:
@@ -221,10 +224,10 @@ class Study:
             {arm.name: arm.label for arm in self.config.arms},
             town,
             self.folder,
+            weights_of=lambda arm, seed: who[arm, seed].digest,
             on_video=lambda done: report(f"video {done}", 1, 1),
         )
         report = stage("report", 1)
-            weights_of=lambda arm, seed: who[arm, seed].digest,
         write_report(self.folder)
         report("report", 1, 1)
 

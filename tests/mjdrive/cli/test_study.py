@@ -6,6 +6,7 @@ import pytest
 from click.testing import CliRunner
 
 from mjdrive.cli.main import main
+from mjdrive.cli.study import study
 
 
 def refused(tmp_path: Path, *options: str) -> str:
@@ -33,3 +34,25 @@ def test_mistakes_are_refused_before_anything_runs(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     assert said in refused(tmp_path, *options)
+
+
+def test_the_command_is_kept_with_every_option(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun = []
+
+    class Begun(Exception):  # noqa: N818
+        pass
+
+    def begin(self: object, stage: object) -> None:
+        begun.append(self)
+        raise Begun
+
+    monkeypatch.setattr("mjdrive.study.study.Study.run", begin)
+    options = ["--preset", "quick", "--set", "long_steps=0", "--out", str(tmp_path / "my study")]
+    monkeypatch.setattr("sys.argv", ["/usr/bin/mjdrive", "study", *options])
+    with pytest.raises(Begun):
+        study.main(options, standalone_mode=False)
+    assert [it.command for it in begun] == [
+        f"mjdrive study --preset quick --set long_steps=0 --out '{tmp_path}/my study'"
+    ]

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from mjdrive.config import StudyConfig
+from mjdrive.config import StudyConfig, read_json
 from mjdrive.errors import DataError
 from mjdrive.study.folder import begin
-from mjdrive.study.results import StudyRecord
+from mjdrive.study.results import STUDY, StudyRecord
 
 
 @pytest.fixture
@@ -40,3 +40,11 @@ def test_a_study_does_not_go_on_in_another_number_format(
     begin(tmp_path / "study", record)
     with pytest.raises(DataError, match="differs in precision"):
         begin(tmp_path / "study", dataclasses.replace(record, precision="bfloat16"))
+
+
+def test_a_study_may_go_on_with_another_command_and_keeps_the_first(
+    record: StudyRecord, tmp_path: Path
+) -> None:
+    begin(tmp_path, dataclasses.replace(record, command="mjdrive study"))
+    begin(tmp_path, dataclasses.replace(record, command="mjdrive study --jobs 2"))
+    assert read_json(StudyRecord, tmp_path / STUDY).command == "mjdrive study"

@@ -104,10 +104,21 @@ def test_every_entry_of_the_contents_leads_somewhere(page: Page) -> None:
 
 def test_the_page_says_how_it_was_made(folder: Path, text: str) -> None:
     record = read_json(StudyRecord, folder / STUDY)
-    assert f"mjdrive study --preset {record.settings.preset}" in text
+    assert "mjdrive.study.study.Study, with the settings below" in text, "nothing was typed"
     for version in record.versions.values():
         assert version in text
     assert all(digest in text for digest in record.towns.values())
+
+
+def test_the_command_is_told_as_it_was_typed(folder: Path, tmp_path: Path) -> None:
+    copy = tmp_path / "typed"
+    shutil.copytree(folder, copy)
+    typed = "mjdrive study --preset quick --set long_steps=0 --jobs 2"
+    record = dataclasses.replace(read_json(StudyRecord, copy / STUDY), command=typed)
+    write_json(record, copy / STUDY)
+    report.write_report(copy)
+    page = (copy / report.REPORT).read_text()
+    assert f"Made by <code>{typed}</code>" in page
 
 
 def test_the_same_study_gives_the_same_page(folder: Path, text: str) -> None:
