@@ -9,11 +9,13 @@ from mjdrive.study.results import ArmResult, StudyResults
 from mjdrive.study.rows import (
     NOTHING,
     Row,
+    agent_cell,
     arm_rows,
     cell,
     markdown,
     ratio,
     reference_rows,
+    training_seeds,
 )
 
 BARS = {
@@ -50,15 +52,16 @@ def ratio_table(config: StudyConfig, found: StudyResults) -> str:
     """
     expert = next((it for it in found.references if it.arm == "expert"), None)
     rows = [*reference_rows(found), *(it for it in arm_rows(config, found) if not it.change)]
-    measured = [[row.label, *_cells(row, expert)] for row in rows]
+    measured = [[row.label, training_seeds(row), *_cells(row, expert)] for row in rows]
     is_theirs = (config.steps, config.episodes * config.steps) == (EPISODE_STEPS, ALL_STEPS)
-    return markdown(["", *BARS], [*(_bars() if is_theirs else ()), *measured])
+    return markdown(["", "training seeds", *BARS], [*(_bars() if is_theirs else ()), *measured])
 
 
 def _bars() -> list[list[str]]:
     columns = ("paper's DA-IBC", "bar", "goal")
     return [
-        [name, *(values[index] for values in BARS.values())] for index, name in enumerate(columns)
+        [name, NOTHING, *(values[index] for values in BARS.values())]
+        for index, name in enumerate(columns)
     ]
 
 
@@ -68,7 +71,7 @@ def _cells(row: Row, expert: ArmResult | None) -> list[str]:
         _distance_ratio(row, expert),
         _recall_ratio(row, expert),
         _long_recall(row),
-        cell(row.per_agent(lambda it: it.choices.turn_divergence)),
+        agent_cell(row, lambda it: it.choices.turn_divergence, digits=3),
         cell(row.per_agent(lambda it: _per_time(it, lambda drive: drive.collisions))),
         cell(row.per_agent(lambda it: _per_time(it, lambda drive: drive.off_road_s))),
     ]
@@ -99,10 +102,8 @@ def _recall_ratio(row: Row, expert: ArmResult | None) -> str:
 
 def _long_recall(row: Row) -> str:
     """By those agents whose drives and long drive are long enough together."""
-    driven = tuple(it for it in row.results if recall_by(it, LONG_SECONDS) is not None)
-    if not driven:
-        return "not driven"
-    return cell(Row(row.label, driven).per_agent(lambda it: recall_by(it, LONG_SECONDS)))
+    text = agent_cell(row, lambda it: recall_by(it, LONG_SECONDS))
+    return "not driven" if text == NOTHING else text
 
 
 def _per_time(result: ArmResult, figure: Callable[[DriveFigures], float]) -> float:

@@ -43,9 +43,9 @@ class Row:
     def per_agent(
         self, figure: Callable[[ArmResult], float | None]
     ) -> Float[np.ndarray, "S 1"] | None:
-        """A figure of every agent, in its own unit; None if one of them has none."""
-        found = [figure(it) for it in self.results]
-        return None if None in found else np.array([found], float).T
+        """A figure of every agent that has it, in its own unit; None if none of them has."""
+        found = [it for it in map(figure, self.results) if it is not None]
+        return np.array([found], float).T if found else None
 
 
 def reference_rows(found: StudyResults) -> tuple[Row, ...]:
@@ -85,20 +85,40 @@ def ratio(
     )
 
 
-def cell(figures: Float[np.ndarray, "S E"] | None) -> str:
+def agent_cell(row: Row, figure: Callable[[ArmResult], float | None], *, digits: int = 2) -> str:
+    """Mean and interval over the agents that have a figure, and how many those are unless all have it."""
+    figures = row.per_agent(figure)
+    text = cell(figures, digits=digits)
+    if figures is None or len(figures) == len(row.results):
+        return text
+    return f"{text} ({len(figures)} of {len(row.results)})"
+
+
+def training_seeds(row: Row) -> str:
+    """How many agents a row is made of; references are not trained."""
+    return str(len(row.results)) if row.results[0].variant else NOTHING
+
+
+def cell(figures: Float[np.ndarray, "S E"] | None, *, digits: int = 2) -> str:
     """Mean and interval as a table has them; the figure alone where there is no other."""
     if figures is None:
         return NOTHING
     if figures.size == 1:
-        return number(float(figures[0, 0]))
-    return str(interval(figures))
+        return number(float(figures[0, 0]), digits=digits)
+    found = interval(figures)
+    low, high = (f"{it:,.{_shown(found.value, digits)}f}" for it in (found.low, found.high))
+    return f"{number(found.value, digits=digits)} [{low}, {high}]"
 
 
-def number(value: float | None) -> str:
+def _shown(value: float, digits: int) -> int:
+    return 0 if abs(value) >= 100 else digits
+
+
+def number(value: float | None, *, digits: int = 2) -> str:
     """A figure without an interval, as a table has it."""
     if value is None:
         return NOTHING
-    return f"{value:,.{0 if abs(value) >= 100 else 2}f}"
+    return f"{value:,.{_shown(value, digits)}f}"
 
 
 def markdown(head: Sequence[str], body: Sequence[Sequence[str]]) -> str:

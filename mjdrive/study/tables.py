@@ -26,11 +26,12 @@ from mjdrive.study.results import RESULTS, STUDY, ArmResult, StudyRecord, StudyR
 from mjdrive.study.rows import (
     NOTHING,
     Row,
+    agent_cell,
     arm_rows,
     cell,
     markdown,
-    number,
     reference_rows,
+    training_seeds,
 )
 
 TABLES = "tables"
@@ -107,9 +108,9 @@ def multimodality_table(config: StudyConfig, found: StudyResults) -> str:
         (f"km to half of them in {everything}", _long(km_to_half_in_all)),
         ("branch entropy", _agent(lambda it: it.choices.entropy)),
         (f"branch entropy in {everything}", _long(lambda it: it.all_choices.entropy)),
-        ("JS to the expert's exits [bit]", _agent(lambda it: it.choices.divergence)),
-        ("its floor [bit]", _agent(lambda it: it.choices.divergence_floor)),
-        ("JS of turns [bit]", _agent(lambda it: it.choices.turn_divergence)),
+        ("JS to the expert's exits [bit]", _agent(lambda it: it.choices.divergence, digits=3)),
+        ("its floor [bit]", _agent(lambda it: it.choices.divergence_floor, digits=3)),
+        ("JS of turns [bit]", _agent(lambda it: it.choices.turn_divergence, digits=3)),
         ("left / straight / right", turns),
         ("mode precision", _agent(mode_precision)),
         ("exit taken", _agent(exits_taken)),
@@ -139,14 +140,13 @@ def ablation_table(config: StudyConfig, found: StudyResults) -> str:
     base = next(row for row in rows if row.results[0].variant == "da-ibc")
     kept = tuple(it for it in base.results if it.seed in seeds)
     columns: tuple[Column, ...] = (
-        ("training seeds", lambda row: str(len(row.results))),
         ("distance [m]", _drive(lambda it: it.distance_m)),
         ("penalty", _drive(lambda it: it.penalty)),
         ("score [m]", _drive(lambda it: it.score)),
         ("off road [s] in all", _summed(lambda it: it.off_road_s)),
         ("collisions in all", _summed(lambda it: it.collisions)),
         ("branch recall", _agent(lambda it: it.choices.recall)),
-        ("JS of turns [bit]", _agent(lambda it: it.choices.turn_divergence)),
+        ("JS of turns [bit]", _agent(lambda it: it.choices.turn_divergence, digits=3)),
         ("mode precision", _agent(mode_precision)),
         ("held-out log-likelihood [nats]", _agent(held_out_gain)),
     )
@@ -201,27 +201,23 @@ def _shares(shares: Mapping[str, float]) -> str:
 
 
 def _summed(figure: Callable[[DriveFigures], float]) -> Callable[[Row], str]:
-    return lambda row: cell(row.per_agent(total(figure)))
+    return _agent(total(figure))
 
 
 def _drive(figure: Callable[[DriveFigures], float]) -> Callable[[Row], str]:
     return lambda row: cell(row.per_drive(figure))
 
 
-def _agent(figure: Callable[[ArmResult], float | None]) -> Callable[[Row], str]:
-    return lambda row: cell(row.per_agent(figure))
+def _agent(figure: Callable[[ArmResult], float | None], *, digits: int = 2) -> Callable[[Row], str]:
+    return lambda row: agent_cell(row, figure, digits=digits)
 
 
 def _long(figure: Callable[[ArmResult], float | None]) -> Callable[[Row], str]:
     """A figure of those agents that made a long drive."""
-
-    def text(row: Row) -> str:
-        made = tuple(it for it in row.results if it.long_drive is not None)
-        return number(None) if not made else cell(Row(row.label, made).per_agent(figure))
-
-    return text
+    return _agent(lambda it: None if it.long_drive is None else figure(it))
 
 
 def _table(rows: Sequence[Row], columns: Sequence[Column]) -> str:
+    columns = (("training seeds", training_seeds), *columns)
     head = ["", *(title for title, _ in columns)]
     return markdown(head, [[row.label, *(show(row) for _, show in columns)] for row in rows])

@@ -154,7 +154,7 @@ def test_recall_in_ten_thousand_seconds_is_that_of_who_drove_so_long(
     curve = Curve((0.0, 3000.0, 9000.0, 10_500.0, 11_000.0), (0.0, 0.5, 0.875, 1.0, 1.0))
     long = dataclasses.replace(first, recall=curve, long_drive=drive(9000))
     table = ratio_table(config, dataclasses.replace(found, arms=(long, *others)))
-    assert cells(table, "DA-IBC, sampled")[column].startswith("0.88")
+    assert cells(table, "DA-IBC, sampled")[column] == "0.88 (1 of 2)"
 
 
 def test_the_picture_of_ablations_compares_the_same_seeds(
@@ -168,6 +168,26 @@ def test_the_picture_of_ablations_compares_the_same_seeds(
     ]
     (alone,) = same_seeds(study[1], ["sample"], labels)
     assert [it.seed for it in alone[1].results] == [0, 1]
+
+
+def test_a_figure_that_some_seeds_lack_is_that_of_the_others_and_says_so(
+    study: tuple[StudyConfig, StudyResults],
+) -> None:
+    config, found = study
+    lost = dataclasses.replace(found.arms[1], forks=(), likelihood=None)
+    arms = (found.arms[0], lost, found.arms[2])
+    table = tables.multimodality_table(config, dataclasses.replace(found, arms=arms))
+    mine = cells(table, "DA-IBC, sampled")
+    assert mine["mode precision"] == "0.90 (1 of 2)"
+    assert mine["JS of turns [bit]"] == "0.010 [0.010, 0.010]"
+
+
+def test_every_table_of_agents_says_how_many_were_trained(
+    study: tuple[StudyConfig, StudyResults],
+) -> None:
+    for make in (tables.paper_table, tables.multimodality_table, ratio_table):
+        assert cells(make(*study), "DA-IBC, sampled")["training seeds"] == "2"
+        assert cells(make(*study), "PID expert, random walk")["training seeds"] == rows.NOTHING
 
 
 def test_a_standstill_expert_has_no_ratio(study: tuple[StudyConfig, StudyResults]) -> None:
@@ -214,10 +234,10 @@ def test_a_long_drive_shows_in_columns_of_its_own_alone(
     before, after = (cells(table, "DA-IBC, sampled") for table in (short, long))
     changed = {name: cell for name, cell in after.items() if before[name] != cell}
     assert {name.partition(" in ")[0]: cell for name, cell in changed.items()} == {
-        "branch recall": "0.75",
-        "directed lanes visited": "0.80",
-        "km to half of them": "0.30",
-        "branch entropy": "0.25",
+        "branch recall": "0.75 (1 of 2)",
+        "directed lanes visited": "0.80 (1 of 2)",
+        "km to half of them": "0.30 (1 of 2)",
+        "branch entropy": "0.25 (1 of 2)",
     }
     assert all("long drive included" in name for name in changed)
 
