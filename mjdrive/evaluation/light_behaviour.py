@@ -1,5 +1,6 @@
 """What a drive along a route did at each light: whether it stopped when it could, and how soon it started again."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,7 +27,7 @@ class LightPassage:
         station: Where the stop line crosses the route [m].
         shown: What the light showed when the nose came over the line.
         braking_needed: What stopping before the line would have taken when the light last turned yellow before that, if
-            the car was on its way to it then [m/s2]; None if the light showed green all the way or the car stood.
+            the car was on its way to it then, without bound in the same control interval [m/s2]; None if the light showed green all the way or the car stood.
         start_delay: Time from the last decision that saw no green to the first at which the car moved, so at most one
             control interval too long [s]; None if the car did not stand before the line when it turned green.
     """
@@ -86,8 +87,10 @@ def _braking_needed(
 ) -> float | None:
     """Deceleration that the car needed when the light last turned yellow ahead of it [m/s2]."""
     before = yellows[yellows <= over]
-    if not len(before) or to_line[before[-1]] <= 0 or speed[before[-1]] < STANDSTILL_SPEED:
+    if not len(before) or speed[before[-1]] < STANDSTILL_SPEED:
         return None
+    if before[-1] == over:  # it turned yellow in the very interval in which the nose came over
+        return math.inf
     return float(speed[before[-1]] ** 2 / (2 * to_line[before[-1]]))
 
 

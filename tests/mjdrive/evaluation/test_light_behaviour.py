@@ -88,6 +88,13 @@ def test_yellow_that_left_room_to_stop_is_rash(to_line: float, rash: bool) -> No
     assert is_rash(passage, late_braking=5.0) is rash
 
 
+def test_yellow_that_came_with_the_line_left_no_room_to_stop() -> None:
+    # Green at the step before the nose comes over, yellow at the first step beyond.
+    (passage,) = drive(at_speed(6.0, to_line=5.7), start=9.0)
+    assert (passage.shown, passage.braking_needed) == (Signal.YELLOW, np.inf)
+    assert not is_rash(passage, late_braking=5.0)
+
+
 def test_red_is_rash_however_late_it_came() -> None:
     (passage,) = drive(at_speed(6.0, to_line=3.0), start=14.0)
     assert (passage.shown, passage.braking_needed) == (Signal.RED, None)

@@ -226,7 +226,10 @@ def test_results_hold_every_agent_way_to_act_and_reference(
 def test_jobs_can_be_sent_to_another_process(tiny: StudyConfig, tiny_folder: Path) -> None:
     folder, town = StudyFolder(tiny_folder), library.load("town02")
     runs = {name: tiny_folder / "runs" / name for name in ("bc-beta-3", "da-ibc-3")}
-    plans = (*plan_references(tiny, folder), *plan_arms(tiny, folder, runs, town, precision="float32"))
+    plans = (
+        *plan_references(tiny, folder),
+        *plan_arms(tiny, folder, runs, town, precision="float32"),
+    )
     for plan in plans:
         for job in (*plan.all_drives, *plan.forks, *([plan.judge] if plan.judge else [])):
             assert pickle.loads(pickle.dumps(job)) == job
