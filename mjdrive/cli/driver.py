@@ -55,9 +55,9 @@ class Driver:
         Raises:
             ConfigError: If the driver is no expert, or the file was made for another expert or car.
         """
-        if self.expert is None:
+        if self.expert is None or self.expert.expert not in experts.NAMES:
             raise ConfigError(
-                f"--gains {gains} has no effect on the trained policy {self.name}. Leave it out, or name an expert "
+                f"--gains {gains} has no effect on {self.name}. Leave it out, or name an expert "
                 f"with --policy: {', '.join(experts.NAMES)}."
             )
         return _expert_driver(applied(self.expert, gains, car))

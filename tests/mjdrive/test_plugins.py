@@ -12,6 +12,7 @@ from mjdrive.cli.driver import find_driver
 from mjdrive.errors import ConfigError, PluginError, UnknownNameError
 from mjdrive.expert import experts
 from mjdrive.town import library
+from mjdrive.vehicle import cars
 from mjdrive.vehicle.parameters import VehicleParameters
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "mjdrive-example"
@@ -89,6 +90,11 @@ def test_unknown_names_list_those_of_packages(broken: Path) -> None:
 def test_preset_has_no_effect_on_a_plug_in(broken: Path) -> None:
     with pytest.raises(ConfigError, match="no effect on 'mute'"):
         find_driver("mute", broken, preset="paper")
+
+
+def test_tuned_settings_have_no_effect_on_an_expert_of_a_package(broken: Path) -> None:
+    with pytest.raises(ConfigError, match="no effect on parked"):
+        find_driver("parked", broken).tuned(broken / "gains.json", cars.load())
 
 
 def test_listing_tells_what_is_wrong(broken: Path) -> None:
