@@ -36,7 +36,7 @@ class MixtureConfig:
     """Size of a BC mixture; loss and inference are those of `BetaConfig`.
 
     Attributes:
-        components: Betas in the mixture; one is BC-Beta.
+        components: Betas in the mixture; one is BC-Beta [-].
     """
 
     components: int = 5
@@ -53,7 +53,7 @@ class CategoricalConfig:
         points: Grid points along each action component; odd numbers have zero among them.
         smoothing: Standard deviation of the Gaussian that spreads a label over the points; 0 gives all to the nearest [-].
         choice: Whether the grid is sampled from, or the densest point is taken.
-        temperature: Log probabilities are divided by it before they are sampled from; below 1 sharpens [-].
+        temperature: Log densities are divided by it before they are sampled from; below 1 sharpens [-].
     """
 
     points: int = 65

@@ -11,11 +11,11 @@ class DenoiserConfig:
     """The network of both generative methods, and how its density is told.
 
     Attributes:
-        width: Hidden units of each of its three layers.
+        width: Hidden units of each of its three layers [-].
         action_gain: Factor on the first weights of the noisy action; 1 is plain initialisation, more tells near actions apart sooner [-].
-        draws: Noises and times that each training pair is seen with; its picture is encoded once for all of them.
+        draws: Noises and times that each training pair is seen with; its picture is encoded once for all of them [-].
         noise_floor: Standard deviation of the noise that an action keeps where its density is told: labels that repeat exactly have none without it [-].
-        density_steps: Steps of the integration that tells it, of four evaluations of the network each.
+        density_steps: Steps of the integration that tells it, of four evaluations of the network each [-].
     """
 
     width: int = 128
@@ -35,7 +35,7 @@ class DiffusionConfig:
     Attributes:
         prediction: What the network predicts: "v", the rate at which an action turns into noise, or the noise itself.
         sampler: "ddim" puts no new noise in, so that all chance lies in the first draw; "ddpm" does at every step but the last.
-        steps: Steps from noise to action, of one evaluation of the network each.
+        steps: Steps from noise to action, of one evaluation of the network each [-].
         clip: Whether what the network takes for the clean action is brought into [-1, 1] at each step.
     """
 
@@ -54,7 +54,7 @@ class FlowConfig:
 
     Attributes:
         integrator: "euler" evaluates the network once a step, "midpoint" twice and errs with the square of the step.
-        steps: Steps from noise to action.
+        steps: Steps from noise to action [-].
     """
 
     integrator: Literal["euler", "midpoint"] = "midpoint"

@@ -78,7 +78,6 @@ MISTAKES = {
     ),
     "missing data": (["train", "ibc"], "'data/town01' does not exist.*mjdrive collect"),
     "nothing to resume": (["train", "ibc", "--resume"], "no complete epoch to resume"),
-    "no run at all": (["drive", "--town", "town02"], "no trained run in 'runs'.*mjdrive train"),
     "unknown policy": (
         ["drive", "--town", "town02", "--policy", "pd"],
         "policy 'pd'.*Did you mean 'pid'",
