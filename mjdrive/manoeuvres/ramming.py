@@ -144,7 +144,7 @@ class RammingGround:
 
     def _drive_into(self, obstacle: str) -> Ram | None:
         geom, data = self._model.geom(obstacle).id, self._data
-        warnings_before = sum(engine.warning_counts().values())
+        warnings_before = engine.num_warnings(data)
         watch, depth = GainWatch(), 0.0
         watch.note(self._meter.read(), is_complete=self._meter.is_complete)
         num_updates = round((RAM_TIME + BRAKE_TIME) / self._model.opt.timestep)
@@ -168,7 +168,7 @@ class RammingGround:
             final_speed=float(np.hypot(*data.qvel[:2])),
             final_lean=float(np.degrees(np.arccos(np.clip(upright(data), -1.0, 1.0)))),
             final_height=float(data.qpos[2]),
-            num_warnings=sum(engine.warning_counts().values()) - warnings_before,
+            num_warnings=engine.num_warnings(data) - warnings_before,
             is_finite=bool(np.isfinite(data.qpos).all()),
         )
 

@@ -82,7 +82,7 @@ def drive_randomly(
     rig = Rig.of_car(car)
     meter = EnergyMeter(rig.model, rig.data, rig.car)
     rig.place()
-    warnings_before = sum(engine.warning_counts().values())
+    warnings_before = engine.num_warnings(rig.data)
     largest_gain, most_upright, energy = 0.0, 1.0, meter.read()
     stop = [Action(-1.0, 0.0)] * round(STOPPING_TIME / _CONTROL)
     actions = random_actions(np.random.default_rng(seed), duration) + stop
@@ -102,7 +102,7 @@ def drive_randomly(
         largest_gain=largest_gain,
         largest_roll=float(np.degrees(np.arccos(np.clip(most_upright, -1.0, 1.0)))),
         final_speed=float(np.abs(rig.data.qvel).max()),
-        num_warnings=sum(engine.warning_counts().values()) - warnings_before,
+        num_warnings=engine.num_warnings(rig.data) - warnings_before,
         is_finite=bool(np.isfinite(rig.data.qpos).all() and np.isfinite(rig.data.qvel).all()),
     )
 

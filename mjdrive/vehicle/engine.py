@@ -1,18 +1,17 @@
 """MuJoCo's warnings, kept out of the user's folder.
 
-Left alone, MuJoCo appends its warnings to MUJOCO_LOG.TXT in the working folder. Importing this module sends them here
-instead; the hook is global in MuJoCo and so is the count.
+Left alone, MuJoCo appends its warnings to MUJOCO_LOG.TXT in the working folder. Importing this module sends them to the
+log instead. That hook is one for the whole process, and other packages (dm_control) take it over, so what went wrong is
+read from the simulation itself.
 """
 
-from collections import Counter
-from collections.abc import Mapping
-from types import MappingProxyType
+import logging
 
 import mujoco
 
 from mjdrive.errors import PhysicsError
 
-_COUNTS: Counter[str] = Counter()
+_LOGGER = logging.getLogger(__name__)
 
 # What leaves the state of a simulation worthless; MuJoCo itself resets the data and goes on.
 _FATAL = (
@@ -26,16 +25,16 @@ _FATAL = (
 )
 
 
-def _record(message: str) -> None:
-    _COUNTS[message.partition(" Time =")[0]] += 1
+def _log(message: str) -> None:
+    _LOGGER.warning(message)
 
 
-mujoco.set_mju_user_warning(_record)
+mujoco.set_mju_user_warning(_log)
 
 
-def warning_counts() -> Mapping[str, int]:
-    """How often MuJoCo has said what in this process, by message."""
-    return MappingProxyType(_COUNTS)
+def num_warnings(data: mujoco.MjData) -> int:
+    """How often MuJoCo has warned in a simulation since it was reset [-]."""
+    return int(data.warning.number.sum())
 
 
 def require_sane(data: mujoco.MjData) -> None:
