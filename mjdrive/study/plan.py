@@ -6,13 +6,14 @@ from pathlib import Path
 from mjdrive.config import Reference, StudyConfig
 from mjdrive.datatypes import Town
 from mjdrive.evaluation.drives import plan_drives
-from mjdrive.study import checkpoints, drivers, results
-from mjdrive.study.agents import ArmAgent, agents, arm_agents, main_arm
-from mjdrive.study.drivers import Who
-from mjdrive.study.driving import DriveJob
-from mjdrive.study.folder import StudyFolder
-from mjdrive.study.forks import ForkJob, chosen_approaches
-from mjdrive.study.judging import JudgeJob
+from mjdrive.study.jobs import checkpoints, drivers
+from mjdrive.study.jobs.drivers import Who
+from mjdrive.study.jobs.driving import DriveJob
+from mjdrive.study.jobs.forks import ForkJob, chosen_approaches
+from mjdrive.study.jobs.judging import JudgeJob
+from mjdrive.study.records import results
+from mjdrive.study.records.folder import StudyFolder
+from mjdrive.study.settings.agents import ArmAgent, agents, arm_agents, main_arm
 from models.config import Precision
 
 LONG = "long"

@@ -13,20 +13,21 @@ from mjdrive.episodes import dataset
 from mjdrive.errors import DataError, UnknownNameError
 from mjdrive.execution.serial import SerialExecutor
 from mjdrive.execution.work import Executor
-from mjdrive.study import checkpoints, videos
-from mjdrive.study.agents import Agent, agents, learner_config, require_buildable
 from mjdrive.study.assembling import assemble
-from mjdrive.study.collecting import collections
-from mjdrive.study.drivers import load_learner
-from mjdrive.study.driving import Place, Report, drive_all
-from mjdrive.study.folder import HELD_OUT, StudyFolder, begin
-from mjdrive.study.forks import live_forks
-from mjdrive.study.judging import Judging, judge_all
+from mjdrive.study.jobs import checkpoints
+from mjdrive.study.jobs.collecting import collections
+from mjdrive.study.jobs.drivers import load_learner
+from mjdrive.study.jobs.driving import Place, Report, drive_all
+from mjdrive.study.jobs.forks import live_forks
+from mjdrive.study.jobs.judging import Judging, judge_all
+from mjdrive.study.jobs.training import TrainingJob, train_all
 from mjdrive.study.plan import ArmPlan, plan_arms, plan_progress, plan_references
-from mjdrive.study.report import write_report
-from mjdrive.study.results import StudyRecord, StudyResults
-from mjdrive.study.situations import situations
-from mjdrive.study.training import TrainingJob, train_all
+from mjdrive.study.records.folder import HELD_OUT, StudyFolder, begin
+from mjdrive.study.records.results import StudyRecord, StudyResults
+from mjdrive.study.records.situations import situations
+from mjdrive.study.report.report import write_report
+from mjdrive.study.settings.agents import Agent, agents, learner_config, require_buildable
+from mjdrive.study.videos import videos
 from mjdrive.town import library
 from mjdrive.vehicle import cars
 from models.config import Precision
