@@ -165,7 +165,7 @@ def _arm_result(
     return ArmResult(
         arm=plan.it.arm.name if plan.it is not None else str(plan.who.reference),
         variant=plan.it.agent.variant.name if plan.it is not None else "",
-        seed=plan.it.agent.seed if plan.it is not None else 0,
+        seed=plan.it.agent.seed if plan.it is not None else plan.who.walk,
         digest=plan.who.digest,
         drives=tuple(it.figures for it in drives),
         long_drive=long_drives[0].figures if long_drives else None,

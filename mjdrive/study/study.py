@@ -32,6 +32,7 @@ from mjdrive.town import library
 from mjdrive.vehicle import cars
 from models.config import Precision
 from models.energy_scoring import resolved
+from models.hardware import choose_device
 
 Stage = Callable[[str, int], Report]
 """Told that a stage begins, and of how many things it consists; what comes back is told how far each of them is."""
@@ -129,6 +130,7 @@ class Study:
             versions=versions.all_versions(),
             code=versions.code_digest(),
             precision=_precision(),
+            device=choose_device().type,
             towns={name: library.load(name).digest for name in names},
             car=cars.load().digest,
             data={name: dataset.digest(place) for name, place in self.data.items()},
@@ -167,10 +169,10 @@ class Study:
 
     def _training_job(self, agent: Agent, data: Path, run: Path, num_samples: int) -> TrainingJob:
         settings = learner_config(agent.variant)
-        if settings.optimiser.precision == "auto":
-            optimiser = dataclasses.replace(settings.optimiser, precision=_precision())
-            settings = dataclasses.replace(settings, optimiser=optimiser)
-        optimiser = settings.optimiser
+        device = choose_device()
+        precision = resolved(settings.optimiser.precision, device)
+        optimiser = dataclasses.replace(settings.optimiser, precision=precision)
+        settings = dataclasses.replace(settings, optimiser=optimiser)
         num_training = num_samples - math.floor(optimiser.validation_share * num_samples)
         return TrainingJob(
             name=agent.name,
@@ -181,6 +183,7 @@ class Study:
             keep_every=0 if agent.variant.change else self.config.progress_every,
             num_steps=optimiser.epochs * math.ceil(num_training / optimiser.batch_size),
             threads=self.config.threads,
+            device=device.type,
         )
 
     def _evaluate(

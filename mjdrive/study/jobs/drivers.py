@@ -34,6 +34,7 @@ class Who:
         acting: Changes to the settings that it was trained with.
         precision: Number format to score actions in where the settings of an agent leave it open.
         reference: Which reference it is; None for an agent.
+        walk: Which random turns the expert takes from the same starts [-].
     """
 
     name: str
@@ -42,6 +43,7 @@ class Who:
     acting: tuple[str, ...] = ()
     precision: Precision = "float32"
     reference: Reference | None = None
+    walk: int = 0
 
 
 def agent(name: str, run: Path, acting: tuple[str, ...], precision: Precision) -> Who:
@@ -117,6 +119,7 @@ def drive(
         seed=seed,
         on_step=on_step,
         choose=functools.partial(rightmost, town) if goes_right else None,
+        walk=who.walk,
         metadata=_metadata(who, simulation, config.to_json(PidConfig()), num_steps),
     )
 

@@ -29,6 +29,7 @@ class TrainingJob:
         keep_every: Epochs between two checkpoints that are kept; 0 keeps none [-].
         num_steps: Steps of the whole run [-].
         threads: That torch may use; the weights depend on it [-].
+        device: Kind of device that trains, "cpu" or "cuda"; the weights depend on it, too.
     """
 
     name: str
@@ -39,6 +40,7 @@ class TrainingJob:
     keep_every: int
     num_steps: int
     threads: int
+    device: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,6 +105,7 @@ def _train(job: TrainingJob, tell: Tell) -> None:
             run=job.run,
             seed=job.seed,
             resume=resumes,
+            device=job.device,
             on_step=on_step,
             on_epoch=lambda _: keep_epoch(job.run, every=job.keep_every),
         )

@@ -8,7 +8,7 @@ from mjdrive.study.pictures.figures_ablation import AblationRow
 from mjdrive.study.records.measures import DriveFigures
 from mjdrive.study.records.reading import StudyFiles
 from mjdrive.study.records.results import ArmResult, StudyResults
-from mjdrive.study.tables.rows import Row, interval, ratio
+from mjdrive.study.tables.rows import Row, expert_row, interval, ratio
 
 COLUMNS = (
     "distance / expert's",
@@ -68,16 +68,14 @@ def same_seeds(
 
 
 def _row(study: StudyFiles, row: Row, look: Look) -> AblationRow:
-    expert = [it for it in study.results.references if it.arm == "expert"]
+    expert = expert_row(study.results)
     distances = row.per_drive(lambda drive: drive.distance_m)
-    ratios = [
-        ratio(distances, Row("", (it,)).per_drive(lambda drive: drive.distance_m)) for it in expert
-    ]
+    theirs = None if expert is None else expert.per_drive(lambda drive: drive.distance_m)
     return AblationRow(
         label=row.label,
         colour=look.colour,
         intervals=(
-            ratios[0] if ratios else None,
+            None if theirs is None else ratio(distances, theirs),
             _per_drive(row, lambda drive: drive.penalty),
             _per_agent(row, lambda result: result.choices.recall),
             _per_agent(row, lambda result: result.choices.turn_divergence),

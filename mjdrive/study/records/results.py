@@ -36,7 +36,8 @@ class StudyRecord:
         learners: Settings that each variant is trained with, by its name, as JSON values by their dotted names.
         versions: Versions of the software.
         code: SHA-256 of the sources of mjdrive and models, hexadecimal: records hold figures that code derived.
-        precision: Number format that settings which leave it open mean in it: that of the CPU that it began on.
+        precision: Number format of actions where settings leave it open: that of the CPU that it began on.
+        device: Kind of device that trains, "cpu" or "cuda".
         towns: Digest of each town that is driven in, by name.
         car: Digest of the car that drives.
         data: Digest of the manifest of each data set that was there before, by name; the study collects the others.
@@ -49,6 +50,7 @@ class StudyRecord:
     versions: Mapping[str, str]
     code: str
     precision: Precision
+    device: str
     towns: Mapping[str, str]
     car: str
     data: Mapping[str, str] = field(default_factory=dict)
@@ -63,7 +65,7 @@ class ArmResult:
     Attributes:
         arm: Name of the arm, or of the reference.
         variant: Name of the variant; empty for a reference.
-        seed: Training seed; 0 for a reference [-].
+        seed: Training seed; of a reference, the number of its walk [-].
         digest: SHA-256 of the weights, hexadecimal; empty for a reference.
         drives: The drives of the tables, in the order of their seeds; those of all arms begin alike.
         long_drive: The long drive; None if it made none.

@@ -82,6 +82,7 @@ def quick(methods: Sequence[str] | None = None) -> StudyConfig:
         variants=variants,
         arms=tuple(main[name] for name in methods),
         demonstrations=(Demonstrations("demonstrations", routes=("route0",)),),
+        expert_walks=2,
         seeds=(0,),
         episodes=2,
         steps=200,

@@ -12,6 +12,7 @@ from mjdrive.study.tables.rows import (
     agent_cell,
     arm_rows,
     cell,
+    expert_row,
     markdown,
     number,
     ratio,
@@ -53,7 +54,7 @@ def ratio_table(config: StudyConfig, found: StudyResults) -> str:
         config: Settings of the study.
         found: Its results.
     """
-    expert = next((it for it in found.references if it.arm == "expert"), None)
+    expert = expert_row(found)
     rows = [*reference_rows(found), *(it for it in arm_rows(config, found) if not it.change)]
     measured = [[row.label, training_seeds(row), *_cells(row, expert, found)] for row in rows]
     is_theirs = (config.steps, config.episodes * config.steps) == (EPISODE_STEPS, ALL_STEPS)
@@ -68,7 +69,7 @@ def _bars() -> list[list[str]]:
     ]
 
 
-def _cells(row: Row, expert: ArmResult | None, found: StudyResults) -> list[str]:
+def _cells(row: Row, expert: Row | None, found: StudyResults) -> list[str]:
     together = found.pooled.get(row.results[0].arm)
     return [
         cell(row.per_drive(_penalty)),
@@ -91,18 +92,20 @@ def _distance(drive: DriveFigures) -> float:
     return drive.distance_m
 
 
-def _distance_ratio(row: Row, expert: ArmResult | None) -> str:
+def _distance_ratio(row: Row, expert: Row | None) -> str:
     if expert is None:
         return NOTHING
     figures = row.per_drive(_distance)
-    found = ratio(figures, Row("", (expert,)).per_drive(_distance))
+    found = ratio(figures, expert.per_drive(_distance))
     return NOTHING if found is None else str(found)
 
 
-def _recall_ratio(row: Row, expert: ArmResult | None) -> str:
-    if expert is None or not expert.choices.recall:
+def _recall_ratio(row: Row, expert: Row | None) -> str:
+    """To the mean of all walks of the expert, as one of them is a matter of chance."""
+    walks = None if expert is None else expert.per_agent(lambda it: it.choices.recall)
+    if walks is None or not walks.any():
         return NOTHING
-    whole = expert.choices.recall
+    whole = float(walks.mean())
     return cell(row.per_agent(lambda it: it.choices.recall / whole))
 
 

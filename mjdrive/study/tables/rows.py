@@ -28,7 +28,7 @@ class Row:
 
     Attributes:
         label: What it is called.
-        results: Of each agent, by training seed; of a reference, the one.
+        results: Of each agent, by training seed; of a reference, by walk.
         change: What sets an ablation apart; empty for the study's own arms and for references.
     """
 
@@ -50,7 +50,16 @@ class Row:
 
 def reference_rows(found: StudyResults) -> tuple[Row, ...]:
     """The references, which every table begins with."""
-    return tuple(Row(REFERENCE_LABELS[it.arm], (it,)) for it in found.references)
+    return tuple(
+        Row(REFERENCE_LABELS[name], tuple(it for it in found.references if it.arm == name))
+        for name in dict.fromkeys(it.arm for it in found.references)
+    )
+
+
+def expert_row(found: StudyResults) -> Row | None:
+    """All walks of the expert, which ratios are taken to; None if it did not drive."""
+    label = REFERENCE_LABELS["expert"]
+    return next((row for row in reference_rows(found) if row.label == label), None)
 
 
 def arm_rows(config: StudyConfig, found: StudyResults) -> tuple[Row, ...]:

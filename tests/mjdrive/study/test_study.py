@@ -195,7 +195,7 @@ def test_results_hold_every_agent_way_to_act_and_reference(
     tiny: StudyConfig, tiny_folder: Path
 ) -> None:
     results = read_json(StudyResults, tiny_folder / RESULTS)
-    assert [it.arm for it in results.references] == ["expert", "right-walker"]
+    assert [it.arm for it in results.references] == ["expert", "expert", "right-walker"]
     assert [(it.arm, it.seed) for it in results.arms] == [(arm.name, 3) for arm in tiny.arms]
     starts = {
         tuple(drive.seed for drive in it.drives) for it in (*results.references, *results.arms)

@@ -26,6 +26,7 @@ def test_each_training_has_its_own_number_of_threads_whatever_the_machine_has(
             keep_every=0,
             num_steps=1,
             threads=threads,
+            device="cpu",
         )
         for threads in (1, 3)
     ]

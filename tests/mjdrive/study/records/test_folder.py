@@ -19,6 +19,7 @@ def record(tiny: StudyConfig) -> StudyRecord:
         versions={"mjdrive": "1.0"},
         code="12" * 32,
         precision="float32",
+        device="cpu",
         towns={"town01": "cd" * 32},
         car="ef" * 32,
     )
@@ -32,6 +33,14 @@ def test_a_study_goes_on_only_with_the_code_that_began_it(
     changed = dataclasses.replace(record, code="ab" * 32)
     with pytest.raises(DataError, match=r"begun with other code .*121212121212.*abababababab"):
         begin(tmp_path / "study", changed)
+
+
+def test_a_study_does_not_go_on_on_another_kind_of_device(
+    record: StudyRecord, tmp_path: Path
+) -> None:
+    begin(tmp_path / "study", record)
+    with pytest.raises(DataError, match="differs in device"):
+        begin(tmp_path / "study", dataclasses.replace(record, device="cuda"))
 
 
 def test_a_study_does_not_go_on_in_another_number_format(

@@ -202,6 +202,20 @@ def test_exits_of_all_seeds_together_stand_beside_their_floor(
     assert mine["JS of turns [bit]"] == "0.010 [0.010, 0.010]"
 
 
+def test_ratios_are_taken_to_all_walks_of_the_expert(
+    study: tuple[StudyConfig, StudyResults],
+) -> None:
+    config, found = study
+    first = found.references[0]
+    poorer = dataclasses.replace(CHOICES, recall=CHOICES.recall / 3)
+    other = dataclasses.replace(first, seed=1, drives=(drive(1000), drive(1000)), choices=poorer)
+    table = ratio_table(config, dataclasses.replace(found, references=(first, other)))
+    assert cells(table, "DA-IBC, sampled")["distance / the expert's"].startswith("0.67 ")
+    recall = cells(table, "PID expert, random walk")["branch recall / the expert's"]
+    assert recall.startswith("1.00 [0.50, 1.50]")
+    assert cells(table, "DA-IBC, sampled")["branch recall / the expert's"].startswith("1.50 ")
+
+
 def test_a_standstill_expert_has_no_ratio(study: tuple[StudyConfig, StudyResults]) -> None:
     config, found = study
     standing = dataclasses.replace(found.references[0], drives=(drive(0), drive(0)))
