@@ -5,11 +5,17 @@ from collections.abc import Callable, Sequence
 
 from mjdrive.config import Arm, Demonstrations, StudyConfig, Variant
 from mjdrive.errors import UnknownNameError
-from mjdrive.study.settings.ablations import ABLATIONS, ACTING_ABLATIONS
+from mjdrive.study.settings.ablations import ABLATIONS, ACTING_ABLATIONS, LONG, LONG_STEEP
 from models.config import METHODS
 
 UNDISTURBED = Demonstrations("undisturbed", preset="paper")
 """Demonstrations without disturbances, as the paper's."""
+
+WALKED_KM = 100.0
+"""What agents of a standard study learn from: fifteen times the ten routes, by a random walk that leaves out no turn [km]."""
+
+_GENTLE = ("bc-beta", "bc-mixture")
+"""Methods whose step size is small anyway."""
 
 _GRID_SAMPLED = ("sampler.kind=grid", "sampler.grid.choice=sample")
 _GRID_LOWEST = ("sampler.kind=grid", "sampler.grid.choice=argmin")
@@ -104,15 +110,21 @@ def standard(methods: Sequence[str] | None = None) -> StudyConfig:
     return StudyConfig(
         preset="standard",
         variants=(
-            *(Variant(name, name) for name in methods),
+            *(
+                Variant(name, name, assignments=LONG if name in _GENTLE else LONG_STEEP)
+                for name in methods
+            ),
             *(ABLATIONS if ablated else ()),
         ),
         arms=(
             *(arm for name in methods for arm in ARMS if arm.variant == name),
             *(ACTING_ABLATIONS if ablated else ()),
         ),
-        demonstrations=(Demonstrations("demonstrations"), *((UNDISTURBED,) if ablated else ())),
-        progress_every=3,
+        demonstrations=(
+            Demonstrations("demonstrations", random_walk_km=WALKED_KM),
+            *((dataclasses.replace(UNDISTURBED, random_walk_km=WALKED_KM),) if ablated else ()),
+        ),
+        progress_every=1,
         forks=1,
     )
 

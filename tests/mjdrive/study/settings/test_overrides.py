@@ -30,6 +30,15 @@ def test_the_standard_study_compares_all_methods_with_three_agents_each() -> Non
     ]
 
 
+def test_all_methods_of_the_standard_study_learn_equally_long_from_as_much() -> None:
+    study = chosen("standard")
+    lengths = {
+        (it.optimiser.epochs, it.optimiser.batch_size) for it in map(learner_config, study.variants)
+    }
+    assert len(lengths) == 1
+    assert {it.random_walk_km for it in study.demonstrations} == {100.0}
+
+
 def test_the_paper_study_has_its_settings() -> None:
     study = chosen("paper")
     assert (study.episodes, study.steps, study.progress_every) == (10, 3000, 10)
