@@ -8,7 +8,7 @@ LONG = ("optimiser.epochs=4", "optimiser.batch_size=64")
 LONG_STEEP = (*LONG, "optimiser.learning_rate=6e-4")
 """The same for methods with a large step size, which smaller minibatches make smaller."""
 
-_GRID = ("sampler.kind=grid", "sampler.grid.choice=sample")
+_GRID = ("sampler.kind=grid", "sampler.grid.choice=sample", "commitment.hold=30")
 
 
 def _variant(
@@ -65,6 +65,13 @@ ACTING_ABLATIONS = (
         "1/KDE undone",
         "pairs drawn by 1/KDE, undone when it acts",
         "sampler.undo=density",
+    ),
+    _arm(
+        "brief",
+        "da-ibc",
+        "committed for 1 s",
+        "choices between ways last for a second",
+        "commitment.hold=10",
     ),
     _arm(
         "cold",

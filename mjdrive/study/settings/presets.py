@@ -17,7 +17,10 @@ WALKED_KM = 100.0
 _GENTLE = ("bc-beta", "bc-mixture")
 """Methods whose step size is small anyway."""
 
-_GRID_SAMPLED = ("sampler.kind=grid", "sampler.grid.choice=sample")
+_ANEW = "commitment.hold=0"
+_COMMITTED = "commitment.hold=30"
+_GRID_SAMPLED = ("sampler.kind=grid", "sampler.grid.choice=sample", _ANEW)
+_GRID_COMMITTED = ("sampler.kind=grid", "sampler.grid.choice=sample", _COMMITTED)
 _GRID_LOWEST = ("sampler.kind=grid", "sampler.grid.choice=argmin")
 _DFO = (
     "sampler.kind=dfo",
@@ -48,16 +51,26 @@ ARMS = (
     _aside("bc-beta-mean", "bc-beta", "BC-Beta, mean", "beta.inference=mean"),
     Arm("bc-mixture-sample", "bc-mixture", "BC mixture, sampled", ("beta.inference=sample",)),
     _aside("bc-mixture-mode", "bc-mixture", "BC mixture, mode", "beta.inference=mode"),
-    Arm("bc-grid-sample", "bc-grid", "BC grid, sampled", ("categorical.choice=sample",)),
+    Arm(
+        "bc-grid-committed",
+        "bc-grid",
+        "BC grid, committed",
+        ("categorical.choice=sample", _COMMITTED),
+    ),
+    Arm("bc-grid-sample", "bc-grid", "BC grid, sampled", ("categorical.choice=sample", _ANEW)),
     _aside("bc-grid-argmax", "bc-grid", "BC grid, densest", "categorical.choice=argmax"),
-    Arm("ibc-sample", "ibc", "IBC, grid sampled", _GRID_SAMPLED),
+    Arm("ibc-committed", "ibc", "IBC, grid committed", _GRID_COMMITTED),
+    _aside("ibc-sample", "ibc", "IBC, grid sampled", *_GRID_SAMPLED),
     _aside("ibc-argmin", "ibc", "IBC, grid lowest", *_GRID_LOWEST),
+    Arm("da-ibc-committed", "da-ibc", "DA-IBC, grid committed", _GRID_COMMITTED),
     Arm("da-ibc-sample", "da-ibc", "DA-IBC, grid sampled", _GRID_SAMPLED),
     Arm("da-ibc-argmin", "da-ibc", "DA-IBC, grid lowest", _GRID_LOWEST),
     Arm("da-ibc-dfo", "da-ibc", "DA-IBC, the paper's DFO", _PAPERS_DFO),
     _aside("da-ibc-tempered", "da-ibc", "DA-IBC, tempered DFO", *_TEMPERED_DFO),
     Arm("ibc-langevin-chain", "ibc-langevin", "Langevin IBC, chains", ("sampler.kind=langevin",)),
-    _aside("ibc-langevin-sample", "ibc-langevin", "Langevin IBC, grid sampled", *_GRID_SAMPLED),
+    _aside(
+        "ibc-langevin-committed", "ibc-langevin", "Langevin IBC, grid committed", *_GRID_COMMITTED
+    ),
     Arm("diffusion-sample", "diffusion", "Diffusion"),
     Arm("flow-sample", "flow", "Flow matching"),
 )
