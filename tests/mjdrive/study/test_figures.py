@@ -11,11 +11,12 @@ from matplotlib.figure import Figure
 
 from mjdrive.datatypes import Town
 from mjdrive.evaluation.bootstrap import Interval
+from mjdrive.evaluation.landscape import DEEPEST, energies
 from mjdrive.study import figures_ablation, figures_choices, figures_fans, figures_paths
 from mjdrive.study.fans import FanPath, FanRecord
 from mjdrive.study.figure_looks import COLOURS, Look, looks, main_arms
 from mjdrive.study.figures_ablation import AblationRow
-from mjdrive.study.figures_landscape import DEEPEST, draw_landscapes, draw_panel, energies
+from mjdrive.study.figures_landscape import draw_landscapes, draw_panel
 from mjdrive.study.measures import Curve
 from mjdrive.study.presets import standard
 from mjdrive.study.results import DrivenPath

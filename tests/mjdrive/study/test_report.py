@@ -10,7 +10,8 @@ import pytest
 
 from mjdrive.config import read_json, write_json
 from mjdrive.errors import DataError
-from mjdrive.study import mp4, report
+from mjdrive.recording import mp4
+from mjdrive.study import report
 from mjdrive.study.report_tables import Table, read_markdown
 from mjdrive.study.results import STUDY, StudyRecord
 from mjdrive.study.rows import markdown
