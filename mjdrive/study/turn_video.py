@@ -10,8 +10,8 @@ from jaxtyping import UInt8
 from mjdrive.bev import picture as bev_picture
 from mjdrive.bev.projector import BevProjector
 from mjdrive.datatypes import Episode, Observation, Town
+from mjdrive.episodes.views import states
 from mjdrive.files import write_atomically
-from mjdrive.learning.batches import states
 from mjdrive.recording import mp4
 from mjdrive.recording.pages import GAP, HEAD, LABEL, Page
 from mjdrive.recording.panels import PANEL, landscape_panel, map_panel
