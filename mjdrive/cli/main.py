@@ -13,6 +13,7 @@ from mjdrive.cli.collect import collect
 from mjdrive.cli.drive import drive
 from mjdrive.cli.export import export
 from mjdrive.cli.info import info
+from mjdrive.cli.replay import replay
 from mjdrive.cli.study import study
 from mjdrive.cli.towns import towns
 from mjdrive.cli.train import train
@@ -80,5 +81,5 @@ def main() -> None:
     """Run `mjdrive`."""
 
 
-for command in (collect, train, drive, export, view, study, tune, towns, car, bench, info):
+for command in (collect, train, drive, replay, export, view, study, tune, towns, car, bench, info):
     main.add_command(command)
