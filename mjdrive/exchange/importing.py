@@ -65,7 +65,7 @@ def write(
     first = recordings[0].episode
     town, car = town_of(first), car_of(first)
     for it in recordings:
-        _require_driveable(it, first)
+        _require_drivable(it, first)
     folder.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=f".{folder.name}.", dir=folder.parent) as place:
         made, entries = Path(place, "data"), []
@@ -116,7 +116,7 @@ def require_writable(folder: Path, *, overwrite: bool) -> None:
         )
 
 
-def _require_driveable(recording: Recording, first: Episode) -> None:
+def _require_drivable(recording: Recording, first: Episode) -> None:
     episode = recording.episode
     if episode.town != first.town:
         raise DataError(
