@@ -13,7 +13,7 @@ from mjdrive.datatypes import Action, Observation
 from mjdrive.envs import frames, rewards, window
 from mjdrive.envs.world import Outcome, World
 from mjdrive.errors import ConfigError, UnknownNameError
-from mjdrive.simulation import front_cameras
+from mjdrive.simulation.front_cameras import NAMES, FrontCameras
 from mjdrive.vehicle import cars
 
 FASTEST = 100.0
@@ -120,7 +120,7 @@ class DrivingEnv(gymnasium.Env[Seen, np.ndarray]):
         self._seen: Observation | None = None
         self._frames = None if render_mode is None else _frames(self._world, view)
         self._window: window.Window | None = None
-        self._cameras = taken and front_cameras.FrontCameras(self._world.simulation, taken)
+        self._cameras = None if taken is None else FrontCameras(self._world.simulation, taken)
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -206,7 +206,7 @@ class DrivingEnv(gymnasium.Env[Seen, np.ndarray]):
         # Learners expect arrays that are theirs; those of an Observation are nobody's to change.
         seen = {"bev": self._seen.bev.copy(), "state": self._seen.state.copy()}
         if self._cameras is not None:
-            seen |= dict(zip(front_cameras.NAMES, self._cameras.render(), strict=True))
+            seen |= dict(zip(NAMES, self._cameras.render(), strict=True))
         return seen, told
 
     def _show(self, picture: UInt8[np.ndarray, "H W 3"]) -> None:
@@ -235,7 +235,7 @@ def observation_space(cameras: CameraConfig | None = None) -> spaces.Space[Seen]
     }
     if cameras is not None:
         shape = (cameras.height_px, cameras.width_px, 3)
-        parts |= {name: spaces.Box(0, 255, shape, np.uint8) for name in front_cameras.NAMES}
+        parts |= {name: spaces.Box(0, 255, shape, np.uint8) for name in NAMES}
     return spaces.Dict(parts)
 
 

@@ -92,8 +92,8 @@ def _data(
         codes = pack(views.bev(episode, step)).tobytes()
         packed.append(base64.b64encode(zlib.compress(codes, _COMPRESSION)).decode())
         on_step(step + 1)
-    rear = config.size_px - config.ego_above_bottom_px
-    rear += config.pixels_per_metre * config.origin_ahead_of_rear_axle
+    ahead = config.pixels_per_metre * config.origin_ahead_of_rear_axle
+    rear = config.size_px - config.ego_above_bottom_px + ahead
     return {
         "format": _FORMAT,
         "time": _rounded(episode.time, 3),
