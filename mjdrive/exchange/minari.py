@@ -26,6 +26,8 @@ import h5py
 import numpy as np
 from gymnasium import spaces
 
+from mjdrive.bev.layers import Layer
+from mjdrive.config import BevConfig
 from mjdrive.datatypes import Episode, Infraction, Town
 from mjdrive.envs import registration
 from mjdrive.envs.driving_env import observation_space
@@ -107,7 +109,8 @@ def _put_steps(group: h5py.Group, episode: Episode) -> None:
 
 
 def _empty_views(group: h5py.Group, count: int) -> h5py.Dataset:
-    shape = observation_space()["bev"].shape
+    size = BevConfig().size_px
+    shape = (len(Layer), size, size)
     return group.create_dataset(
         "observations/bev",
         (count, *shape),
