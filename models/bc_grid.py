@@ -8,6 +8,7 @@ from torch.nn import functional as F  # noqa: N812
 from models.config import LearnerConfig
 from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_action, policy_head
 from models.interfaces import ACTION_BOUND, Batch, Chance, Learner, weighted_mean
+from models.samplers.commitment import draw_committed
 from models.samplers.draws import draw_categorical
 from models.samplers.grid import action_grid
 from models.threads import one_thread
@@ -62,6 +63,7 @@ class BcGridLearner(Learner):
         state: Float[Tensor, "B 3"],
         *,
         generator: torch.Generator,
+        sides: Float[Tensor, "B 3"] | None = None,
     ) -> Float[Tensor, "B 2"]:
         """The densest point, or one drawn from the grid, as the settings say."""
         settings = self.config.categorical
@@ -73,8 +75,13 @@ class BcGridLearner(Learner):
         if settings.choice == "argmax":
             return actions[log_densities.argmax(dim=1)]
         # The density is tempered, so that the coldest sample is the densest point.
-        probabilities = torch.softmax(log_densities / settings.temperature + log_areas, dim=1)
-        return actions[draw_categorical(probabilities, 1, generator=generator).squeeze(1)]
+        log_weights = log_densities / settings.temperature + log_areas
+        if sides is None:
+            drawn = draw_categorical(torch.softmax(log_weights, dim=1), 1, generator=generator)
+        else:
+            split = self.config.commitment.split
+            drawn = draw_committed(log_weights, sides, split=split, generator=generator)
+        return actions[drawn.squeeze(1)]
 
     @torch.no_grad()
     def log_density(

@@ -8,6 +8,7 @@ from models.config import (
     BetaConfig,
     CategoricalConfig,
     ChainConfig,
+    CommitmentConfig,
     DenoiserConfig,
     DensityConfig,
     DfoConfig,
@@ -88,6 +89,8 @@ def _effective(method: Method, *, epochs: int, negatives: int) -> LearnerConfig:
             grid=GridConfig(points=65),
             langevin=LangevinConfig(num_chains=128, chain=ChainConfig(iterations=50)),
         ),
+        # Three seconds at 10 Hz, about as long as a turn takes.
+        commitment=CommitmentConfig(hold=30),
         optimiser=OptimiserConfig(
             # The likelihood of a narrow Beta has steep gradients: at 8e-4 the encoder of BC-Beta dies.
             learning_rate=3e-4 if is_beta else 8e-4,

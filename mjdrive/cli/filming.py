@@ -33,7 +33,7 @@ def require_cameras() -> None:
 def landscape_of(driver: Driver) -> "Landscape | None":
     """What a driver thinks of all actions, for those that can be asked: trained policies."""
     from mjdrive.learning.pilot import Pilot
-    from mjdrive.study.landscapes import probabilities
+    from mjdrive.study.jobs.landscapes import probabilities
 
     pilot = driver.pilot
     if not isinstance(pilot, Pilot):

@@ -4,6 +4,7 @@ import dataclasses
 from pathlib import Path
 
 import torch
+from torch import Tensor
 
 from mjdrive.datatypes import Action, Observation
 from mjdrive.errors import RunError
@@ -13,6 +14,7 @@ from models.energy_scoring import resolved
 from models.errors import ModelsError
 from models.hardware import choose_device
 from models.interfaces import Learner
+from models.samplers.commitment import draw_sides
 
 
 class Pilot:
@@ -45,19 +47,33 @@ class Pilot:
         self.config = learner.config
         self.learner = learner.to(self.device).eval()
         self._generator = torch.Generator(self.device)
+        self._sides: Tensor | None = None
 
     def reset(self, seed: int) -> None:
         """Start a new stream of random numbers."""
         self._generator.manual_seed(seed)
+        self._sides = None
 
     @torch.inference_mode()
     def act(self, view: Observation) -> Action:
         """Choose the action for the next control interval."""
         bev = torch.tensor(view.bev, device=self.device)[None]
         state = torch.tensor(view.state, device=self.device)[None]
-        chosen = self.learner.act(bev, state, generator=self._generator)
+        chosen = self.learner.act(
+            bev, state, generator=self._generator, sides=self._lasting_sides()
+        )
         acceleration, steering = chosen[0].tolist()
         return Action(acceleration=acceleration, steering=steering)
+
+    def _lasting_sides(self) -> Tensor | None:
+        """Noise that decides between ways; each decision replaces it by chance. None if nothing lasts."""
+        hold = self.config.commitment.hold
+        if hold == 0:
+            return None
+        unit = torch.rand((), generator=self._generator, device=self.device)
+        if self._sides is None or unit < 1 / hold:
+            self._sides = draw_sides(1, generator=self._generator)
+        return self._sides
 
 
 def load(

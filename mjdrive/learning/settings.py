@@ -11,6 +11,7 @@ from models.errors import SettingError
 
 ACTING = (
     "sampler.",
+    "commitment.",
     "beta.inference",
     "categorical.choice",
     "categorical.temperature",

@@ -1,5 +1,6 @@
 """Every setting of the learners, among them each ambiguity of the paper; presets are in `models.presets`."""
 
+from models.config.commitment import CommitmentConfig
 from models.config.effects import is_idle, settings_of
 from models.config.evenness import EvennessConfig
 from models.config.explicit import BetaConfig, CategoricalConfig, MixtureConfig
@@ -18,6 +19,7 @@ __all__ = [
     "CategoricalConfig",
     "ChainConfig",
     "Choice",
+    "CommitmentConfig",
     "DenoiserConfig",
     "DensityConfig",
     "DensityKind",

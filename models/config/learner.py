@@ -4,6 +4,7 @@ import dataclasses
 from typing import Literal, get_args
 
 from models.config.checks import require
+from models.config.commitment import CommitmentConfig
 from models.config.evenness import EvennessConfig
 from models.config.explicit import BetaConfig, CategoricalConfig, MixtureConfig
 from models.config.generative import DenoiserConfig, DiffusionConfig, FlowConfig
@@ -39,6 +40,7 @@ class LearnerConfig:
         density: Kernel density estimate and what it weighs.
         evenness: How evenly training draws what was seen.
         sampler: How IBC and DA-IBC choose actions.
+        commitment: How long choices between ways last, where actions are sampled from a grid.
         optimiser: How the loss is descended on.
     """
 
@@ -57,6 +59,7 @@ class LearnerConfig:
     density: DensityConfig = dataclasses.field(default_factory=DensityConfig)
     evenness: EvennessConfig = dataclasses.field(default_factory=EvennessConfig)
     sampler: SamplerConfig = dataclasses.field(default_factory=SamplerConfig)
+    commitment: CommitmentConfig = dataclasses.field(default_factory=CommitmentConfig)
     optimiser: OptimiserConfig = dataclasses.field(default_factory=OptimiserConfig)
 
     def __post_init__(self) -> None:

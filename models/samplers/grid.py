@@ -5,6 +5,7 @@ from jaxtyping import Float
 from torch import Tensor
 
 from models.config import GridConfig
+from models.samplers.commitment import draw_committed
 from models.samplers.dfo import EnergyFunction
 from models.samplers.draws import draw_categorical
 
@@ -28,6 +29,8 @@ def choose(
     config: GridConfig,
     *,
     generator: torch.Generator,
+    sides: Float[Tensor, "B 3"] | None = None,
+    split: float = 0.15,
 ) -> Float[Tensor, "B 2"]:
     """Choose a grid point for each observation: the lowest, or one drawn from exp(-E / temperature).
 
@@ -35,6 +38,8 @@ def choose(
         energy: Scores candidates.
         config: Grid, choice and temperature.
         generator: Source of chance; the grid lies on its device.
+        sides: Lasting noise to choose a side by before one of its points is drawn; None draws among all points.
+        split: How much the modes of a side steer at least [-].
 
     Returns:
         Acceleration and steering [-].
@@ -43,5 +48,9 @@ def choose(
     energies = energy(actions[None])  # (B, N)
     if config.choice == "argmin":
         return actions[energies.argmin(dim=1)]
-    probabilities = torch.softmax(-energies / config.temperature, dim=1)
-    return actions[draw_categorical(probabilities, 1, generator=generator).squeeze(1)]
+    log_weights = -energies / config.temperature
+    if sides is None:
+        drawn = draw_categorical(torch.softmax(log_weights, dim=1), 1, generator=generator)
+    else:
+        drawn = draw_committed(log_weights, sides, split=split, generator=generator)
+    return actions[drawn.squeeze(1)]

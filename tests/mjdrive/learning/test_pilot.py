@@ -1,4 +1,5 @@
 import dataclasses
+import itertools
 import json
 from pathlib import Path
 
@@ -44,6 +45,32 @@ def test_same_seed_acts_alike_and_each_reset_starts_over(run: Path) -> None:
         drives.append([policy.act(SEEN) for _ in range(5)])
     assert drives[0] == drives[1]
     assert drives[0] != drives[2]
+
+
+def test_choices_last_as_long_as_the_settings_say_and_end_with_the_drive(
+    run: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    policy = pilot.load(run)
+    given: list[torch.Tensor | None] = []
+    monkeypatch.setattr(
+        policy.learner,
+        "act",
+        lambda *_, generator, sides: given.append(sides) or torch.zeros(1, 2),
+    )
+    policy.act(SEEN)
+    assert given == [None], "by default nothing lasts"
+    commitment = dataclasses.replace(policy.config.commitment, hold=20)
+    policy.config = dataclasses.replace(policy.config, commitment=commitment)
+    policy.reset(0)
+    given.clear()
+    for _ in range(600):
+        policy.act(SEEN)
+    changes = sum(a is not b for a, b in itertools.pairwise(given))
+    assert 15 <= changes <= 50  # 30 +- 3 * sqrt(30)
+    last = given[-1]
+    policy.reset(0)
+    policy.act(SEEN)
+    assert given[-1] is not last
 
 
 def test_preset_changes_how_it_acts_and_not_what_it_learnt(run: Path) -> None:
@@ -109,10 +136,12 @@ def test_what_it_sees_goes_to_its_device(run: Path, monkeypatch: pytest.MonkeyPa
     policy = pilot.load(run, device=elsewhere)
     seen = []
 
-    def act(bev: torch.Tensor, state: torch.Tensor, *, generator: object) -> torch.Tensor:
+    def act(
+        bev: torch.Tensor, state: torch.Tensor, *, generator: object, sides: object
+    ) -> torch.Tensor:
         seen.extend([bev.device, state.device])
         return torch.zeros(1, 2)
 
-    monkeypatch.setattr(policy._learner, "act", act)
+    monkeypatch.setattr(policy.learner, "act", act)
     policy.act(SEEN)
     assert seen == [elsewhere, elsewhere]
