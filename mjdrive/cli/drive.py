@@ -71,6 +71,12 @@ def _list_shipped(ctx: click.Context, param: click.Parameter, value: str | None)
 )
 @executor_options
 @click.option(
+    "--video",
+    "is_filmed",
+    is_flag=True,
+    help="Write a video, too: cameras, bird's-eye view, energy landscape and map. Needs OpenGL; takes several times as long as the drive.",
+)
+@click.option(
     "--out",
     type=click.Path(path_type=Path),
     metavar="DIR",
@@ -91,6 +97,7 @@ def drive(
     jobs: Jobs,
     backend: str,
     address: str | None,
+    is_filmed: bool,
     out: Path | None,
 ) -> None:
     """Drive freely through a town, from a random place and with no route.
@@ -116,6 +123,11 @@ def drive(
         driver = driver.tuned(gains, car)
     driver = driver.solved_by(solver, fallback_solver)
     folder = out or report.new_folder(DRIVES, datetime.datetime.now())
+    if is_filmed:
+        from mjdrive.cli import filming
+
+        _require_one(num_episodes)
+        filming.require_cameras()
     if num_episodes is not None:
         from mjdrive.cli.drives import drive_episodes
 
@@ -143,6 +155,14 @@ def drive(
             on_late_solves=late_solves.append,
         )
     summary = report.write_drive(episode, town, folder)
+    video: dict[str, object] = {}
+    if is_filmed:
+        from mjdrive.recording.playback import Playback
+
+        video = {"video": folder / filming.VIDEO}
+        playback = Playback(episode, car=car_name)
+        landscape = filming.landscape_of(driver)
+        filming.write_video(playback, folder / filming.VIDEO, landscape=landscape)
     closing_table(
         f"{driver.name} in {town.name}, seed {seed}",
         {
@@ -158,6 +178,7 @@ def drive(
             **driver.solve_notes(episode, sum(late_solves)),
             "path": folder / "trajectory.png",
             "actions": folder / "actions.png",
+            **video,
             "figures": folder / "summary.json",
             "episode": folder / "episode.hdf5",
         },
@@ -165,6 +186,17 @@ def drive(
         if driver.pilot is not None
         else f"mjdrive drive --town {town.name} --policy {driver.name} --seed {seed + 1}",
     )
+
+
+def _require_one(num_episodes: int | None) -> None:
+    """Refuse to film many drives."""
+    from mjdrive.errors import ConfigError
+
+    if num_episodes is not None:
+        raise ConfigError(
+            "--video films one drive; expected it without --episodes. Film one of many when they are made: "
+            "`mjdrive replay DIR/episode-000`."
+        )
 
 
 def _require_alone(jobs: Jobs, backend: str, address: str | None) -> None:

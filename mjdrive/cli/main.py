@@ -11,7 +11,10 @@ from mjdrive.cli.bench import bench
 from mjdrive.cli.car import car
 from mjdrive.cli.collect import collect
 from mjdrive.cli.drive import drive
+from mjdrive.cli.export import export
+from mjdrive.cli.importing import import_
 from mjdrive.cli.info import info
+from mjdrive.cli.replay import replay
 from mjdrive.cli.study import study
 from mjdrive.cli.towns import towns
 from mjdrive.cli.train import train
@@ -79,5 +82,19 @@ def main() -> None:
     """Run `mjdrive`."""
 
 
-for command in (collect, train, drive, view, study, tune, towns, car, bench, info):
+for command in (
+    collect,
+    train,
+    drive,
+    replay,
+    export,
+    import_,
+    view,
+    study,
+    tune,
+    towns,
+    car,
+    bench,
+    info,
+):
     main.add_command(command)

@@ -1,5 +1,6 @@
 """Frozen settings, and how they are written to and read from JSON."""
 
+from mjdrive.config.cameras import CameraConfig
 from mjdrive.config.collecting import CollectConfig, DisturbanceConfig, ExpertName
 from mjdrive.config.driving_env import EnvConfig, InfractionName, RewardConfig
 from mjdrive.config.json_files import from_dict, read_json, require, to_json, write_json
@@ -17,6 +18,7 @@ from mjdrive.config.tuning import TuneConfig
 __all__ = [
     "Arm",
     "BevConfig",
+    "CameraConfig",
     "CollectConfig",
     "Demonstrations",
     "DisturbanceConfig",

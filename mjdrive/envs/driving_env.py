@@ -8,18 +8,19 @@ from gymnasium import spaces
 from jaxtyping import Shaped, UInt8
 
 from mjdrive.bev.layers import Layer
-from mjdrive.config import BevConfig, EnvConfig, SimulationConfig
+from mjdrive.config import BevConfig, CameraConfig, EnvConfig, SimulationConfig
 from mjdrive.datatypes import Action, Observation
 from mjdrive.envs import frames, rewards, window
 from mjdrive.envs.world import Outcome, World
 from mjdrive.errors import ConfigError, UnknownNameError
+from mjdrive.simulation.front_cameras import NAMES, FrontCameras
 from mjdrive.vehicle import cars
 
 FASTEST = 100.0
 """No car here reaches this speed, forwards or backwards [m/s]."""
 
 Seen = dict[str, Any]
-"""Observation: "bev" and "state"."""
+"""Observation: "bev" and "state", with cameras their pictures, too."""
 
 
 class DrivingEnv(gymnasium.Env[Seen, np.ndarray]):
@@ -48,6 +49,7 @@ class DrivingEnv(gymnasium.Env[Seen, np.ndarray]):
     |---|---|---|
     | bev | `Box(0, 255, (5, 192, 192), uint8)` | bird's-eye view, 5 px/m, car looking up: road, lane lines, lights 1.5 s ago, 0.8 s ago, now |
     | state | `Box(float32, (3,))` | speed [m/s], previous acceleration [-], previous steering [-] |
+    | front_left, front, front_right | `Box(0, 255, (144, 256, 3), uint8)` | with `cameras=True`: what cameras above the bonnet see, 90 degrees each, half to the left, ahead, half to the right |
 
     ## Reward
 
@@ -84,6 +86,7 @@ class DrivingEnv(gymnasium.Env[Seen, np.ndarray]):
         config: Rewards and endings.
         render_mode: "rgb_array", "human" or None.
         view: What `render` shows.
+        cameras: Whether pictures of the front cameras are part of the observation, or how they are taken; needs OpenGL.
 
     Raises:
         UnknownNameError: If there is no such town, view or mode.
@@ -103,18 +106,21 @@ class DrivingEnv(gymnasium.Env[Seen, np.ndarray]):
         config: EnvConfig | None = None,
         render_mode: str | None = None,
         view: str = frames.MAP,
+        cameras: CameraConfig | bool = False,
     ) -> None:
         _require_known("render mode", render_mode, (None, *self.metadata["render_modes"]))
         _require_known("view", view, (frames.MAP, *frames.CAMERAS))
         if render_mode == "human":
             window.require_display()
         self.render_mode = render_mode
-        self.observation_space = observation_space()
+        taken = CameraConfig() if cameras is True else cameras or None
+        self.observation_space = observation_space(taken)
         self.action_space = spaces.Box(-1.0, 1.0, (2,), np.float32)
         self._world = World(town, car=car, config=config)
         self._seen: Observation | None = None
         self._frames = None if render_mode is None else _frames(self._world, view)
         self._window: window.Window | None = None
+        self._cameras = None if taken is None else FrontCameras(self._world.simulation, taken)
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -175,6 +181,9 @@ class DrivingEnv(gymnasium.Env[Seen, np.ndarray]):
         if self._frames is not None:
             self._frames.close()
             self._frames = None
+        if self._cameras is not None:
+            self._cameras.close()
+            self._cameras = None
 
     def _look(self, outcome: Outcome) -> tuple[Seen, dict[str, Any]]:
         simulation, tally = self._world.simulation, self._world.tally
@@ -195,7 +204,10 @@ class DrivingEnv(gymnasium.Env[Seen, np.ndarray]):
             "reward_terms": dict(outcome.terms),
         }
         # Learners expect arrays that are theirs; those of an Observation are nobody's to change.
-        return {"bev": self._seen.bev.copy(), "state": self._seen.state.copy()}, told
+        seen = {"bev": self._seen.bev.copy(), "state": self._seen.state.copy()}
+        if self._cameras is not None:
+            seen |= dict(zip(NAMES, self._cameras.render(), strict=True))
+        return seen, told
 
     def _show(self, picture: UInt8[np.ndarray, "H W 3"]) -> None:
         if self._window is None:
@@ -209,16 +221,22 @@ class DrivingEnv(gymnasium.Env[Seen, np.ndarray]):
         self._window.show(picture)
 
 
-def observation_space() -> spaces.Space[Seen]:
-    """What an `Observation` can be."""
+def observation_space(cameras: CameraConfig | None = None) -> spaces.Space[Seen]:
+    """What an observation can be.
+
+    Args:
+        cameras: How the pictures of the front cameras are taken; none are if None.
+    """
     size = BevConfig().size_px
     limits = np.array([FASTEST, 1.0, 1.0], np.float32)
-    return spaces.Dict(
-        {
-            "bev": spaces.Box(0, 255, (len(Layer), size, size), np.uint8),
-            "state": spaces.Box(-limits, limits, dtype=np.float32),
-        }
-    )
+    parts: dict[str, spaces.Space[Any]] = {
+        "bev": spaces.Box(0, 255, (len(Layer), size, size), np.uint8),
+        "state": spaces.Box(-limits, limits, dtype=np.float32),
+    }
+    if cameras is not None:
+        shape = (cameras.height_px, cameras.width_px, 3)
+        parts |= {name: spaces.Box(0, 255, shape, np.uint8) for name in NAMES}
+    return spaces.Dict(parts)
 
 
 def _frames(world: World, view: str) -> frames.MapFrames | frames.CameraFrames:

@@ -4,7 +4,7 @@ import numpy as np
 from jaxtyping import Float
 
 from mjdrive import geometry
-from mjdrive.datatypes import Observation, Route, Situation
+from mjdrive.datatypes import Episode, Observation, Route, Situation
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town.random_walk import RandomWalk
 
@@ -15,6 +15,12 @@ _SEARCH_AHEAD = 15
 def observe(simulation: Simulation) -> Observation:
     """All that a learned policy may see."""
     return simulation.observe()
+
+
+def states(episode: Episode) -> Float[np.ndarray, "T 3"]:
+    """The state part of each observation: speed [m/s], previous acceleration and previous steering [-]."""
+    previous = np.vstack([np.zeros((1, 2)), episode.actions[:-1]])
+    return np.column_stack([episode.vehicle[:, 3], previous]).astype(np.float32)
 
 
 class RouteProgress:

@@ -8,6 +8,9 @@ from jaxtyping import Float, Int
 LEAST_MASS = 0.05
 """A basin with less probability than this is a ripple, no way to act [-]."""
 
+DEEPEST = 12.0
+"""Actions that are less likely than the best by more than e to this power look alike [nats]."""
+
 
 class Mode(NamedTuple):
     """A separate way to act.
@@ -54,6 +57,12 @@ def entropy_bits(probabilities: Float[np.ndarray, "A S"]) -> float:
     """Entropy of a distribution over a grid; at most the logarithm of its number of points [bit]."""
     positive = probabilities[probabilities > 0]
     return float(-np.sum(positive * np.log2(positive)))
+
+
+def energies(probabilities: Float[np.ndarray, "A S"]) -> Float[np.ndarray, "A S"]:
+    """Turn probabilities into energies above the lowest, at most `DEEPEST` [nats]."""
+    smallest = probabilities.max() * np.exp(-DEEPEST)
+    return np.asarray(np.log(probabilities.max() / np.maximum(probabilities, smallest)))
 
 
 def _tops(values: Float[np.ndarray, "A S"]) -> Int[np.ndarray, " N"]:

@@ -13,6 +13,7 @@ from mjdrive.bev import layers
 from mjdrive.bev.projector import BevProjector
 from mjdrive.config import BevConfig
 from mjdrive.datatypes import Episode, Town
+from mjdrive.episodes.views import states
 from mjdrive.errors import DataError
 from mjdrive.learning.unpacking import pair_table, unpack
 from models.interfaces import Batch
@@ -150,12 +151,6 @@ def demonstrations_of(
     if views == "memory" or (views == "auto" and total <= MOST_IN_MEMORY):
         return PackedDemonstrations(episodes, town, on_frame=on_frame)
     return LiveDemonstrations(episodes, town)
-
-
-def states(episode: Episode) -> Float[np.ndarray, "T 3"]:
-    """The state part of each observation: speed [m/s], previous acceleration and previous steering [-]."""
-    previous = np.vstack([np.zeros((1, 2)), episode.actions[:-1]])
-    return np.column_stack([episode.vehicle[:, 3], previous]).astype(np.float32)
 
 
 def _moments(episodes: Sequence[Episode]) -> Float[np.ndarray, "D 5"]:

@@ -1,10 +1,12 @@
 """Pictures of a scene, drawn without a display."""
 
+from collections.abc import Sequence
 from types import TracebackType
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
-from jaxtyping import UInt8
+from jaxtyping import Float, UInt8
 
 from mjdrive.datatypes import Town
 from mjdrive.errors import RenderError, UnknownNameError
@@ -15,6 +17,22 @@ MAX_GEOMS = 5000  # in one picture
 FIELD_OF_VIEW_DEG = 45.0  # vertical, of free cameras in MuJoCo
 OVERVIEW_ELEVATION_DEG = 50.0
 HOUSES_AROUND = 20.0  # beyond the lanes [m]
+
+
+class Viewpoint(NamedTuple):
+    """Where a camera is and what it sees.
+
+    Attributes:
+        position: World frame [m].
+        forward: Direction in which it looks, world frame [-].
+        up: What is up in the picture, world frame [-].
+        field_of_view: Angle between the lower and the upper edge of the picture [rad].
+    """
+
+    position: Float[np.ndarray, "3"]
+    forward: Float[np.ndarray, "3"]
+    up: Float[np.ndarray, "3"]
+    field_of_view: float
 
 
 class Cameras:
@@ -66,6 +84,34 @@ class Cameras:
             UnknownNameError: If the scene has no such camera.
         """
         camera = self._fixed_camera(view) if isinstance(view, str) else view
+        self._set_scene(data, camera, shadows=shadows)
+        if camera.type == mujoco.mjtCamera.mjCAMERA_FREE:
+            self._aim_sun(camera)
+        return self._draw()
+
+    def render_from(
+        self, data: mujoco.MjData, viewpoints: Sequence[Viewpoint], *, shadows: bool = True
+    ) -> UInt8[np.ndarray, "N H W 3"]:
+        """Draw what is seen from some places at one time; the sun follows the car.
+
+        Args:
+            data: State of the scene, positions up to date.
+            viewpoints: At least one.
+            shadows: Whether the sun throws shadows.
+
+        Returns:
+            Red, green, blue of each picture, top row first [-].
+        """
+        self._set_scene(data, mujoco.MjvCamera(), shadows=shadows)
+        pictures = np.empty((len(viewpoints), self.height, self.width, 3), np.uint8)
+        for picture, viewpoint in zip(pictures, viewpoints, strict=True):
+            for eye in self._scene.camera:
+                self._aim(eye, viewpoint)
+            picture[:] = self._draw()
+        return pictures
+
+    def _set_scene(self, data: mujoco.MjData, camera: mujoco.MjvCamera, *, shadows: bool) -> None:
+        """Take over what there is to see, and one camera."""
         self._opengl.make_current()
         self._scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = shadows
         mujoco.mjv_updateScene(
@@ -78,8 +124,18 @@ class Cameras:
             self._scene,
         )
         self._context.shadowClip = self._near_shadows
-        if camera.type == mujoco.mjtCamera.mjCAMERA_FREE:
-            self._aim_sun(camera)
+
+    def _aim(self, eye: mujoco.MjvGLCamera, viewpoint: Viewpoint) -> None:
+        near = self._model.vis.map.znear * self._model.stat.extent
+        half = near * np.tan(0.5 * viewpoint.field_of_view)
+        eye.pos, eye.forward, eye.up = viewpoint.position, viewpoint.forward, viewpoint.up
+        eye.orthographic = 0
+        eye.frustum_near, eye.frustum_far = near, self._model.vis.map.zfar * self._model.stat.extent
+        eye.frustum_bottom, eye.frustum_top = -half, half
+        # The width follows from the height and the shape of the picture.
+        eye.frustum_center = eye.frustum_width = 0.0
+
+    def _draw(self) -> UInt8[np.ndarray, "H W 3"]:
         rectangle = mujoco.MjrRect(0, 0, self.width, self.height)
         picture = np.empty((self.height, self.width, 3), np.uint8)
         mujoco.mjr_render(rectangle, self._scene, self._context)

@@ -8,6 +8,7 @@ import typing
 
 import pytest
 
+import mjdrive.config.cameras
 import mjdrive.config.driving_env
 import mjdrive.config.mpc
 import mjdrive.config.settings
@@ -42,6 +43,7 @@ def numeric_dataclasses() -> list[type]:
     modules = (
         mjdrive.datatypes.town,
         mjdrive.datatypes.driving,
+        mjdrive.config.cameras,
         mjdrive.config.driving_env,
         mjdrive.config.mpc,
         mjdrive.config.settings,

@@ -22,6 +22,7 @@ PAGES = [
         "docs/car.md",
         "docs/cars.md",
         "docs/experts.md",
+        "docs/recordings.md",
         "docs/study.md",
         "docs/zoo.md",
     )
@@ -63,7 +64,7 @@ def test_commands_and_their_options_exist(page: Path) -> None:
             assert set(words) <= targets, line
         elif program == "mjdrive" and not words[0].startswith("--"):
             command, rest = find_command(words)
-            known = {name for param in command.params for name in param.opts}
+            known = {it for param in command.params for it in (*param.opts, *param.secondary_opts)}
             assert {word for word in rest if word.startswith("-")} <= known | {"--help"}, line
 
 

@@ -15,10 +15,10 @@ from jaxtyping import Bool, Float
 
 from mjdrive.bev.projector import BevProjector
 from mjdrive.datatypes import Episode, Observation, Town
+from mjdrive.episodes.views import states
 from mjdrive.evaluation import lane_keeping
 from mjdrive.evaluation.choices import approaches
 from mjdrive.evaluation.landscape import entropy_bits, modes
-from mjdrive.learning.batches import states
 from mjdrive.study.jobs.landscapes import POINTS, action_grid, normalised
 from mjdrive.study.records.measures import LandscapeFigures, Likelihood
 from mjdrive.town.lane_graph import lane_length

@@ -10,11 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 
-from mjdrive.evaluation.landscape import modes
+from mjdrive.evaluation.landscape import DEEPEST, energies, modes
 from mjdrive.picture_style import STYLE, save
-
-DEEPEST = 12.0
-"""Actions that are less likely than the best by more than e to this power look alike [nats]."""
 
 COLUMN, ROW, EDGE = 2.15, 2.15, 0.62
 """Width of a situation, height of a landscape, and space around [inch]."""
@@ -95,12 +92,6 @@ def draw_panel(axes: Axes, panel: Panel) -> AxesImage:
         xlim=(1 + half, -1 - half), ylim=(-1 - half, 1 + half), xticks=(1, 0, -1), yticks=(-1, 0, 1)
     )
     return image
-
-
-def energies(probabilities: Float[np.ndarray, "A S"]) -> Float[np.ndarray, "A S"]:
-    """Turn probabilities into energies above the lowest, at most `DEEPEST` [nats]."""
-    smallest = probabilities.max() * np.exp(-DEEPEST)
-    return np.asarray(np.log(probabilities.max() / np.maximum(probabilities, smallest)))
 
 
 def _mark(axes: Axes, steering: float, acceleration: float, text: str) -> None:

@@ -6,16 +6,16 @@ from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import UInt8
-from PIL import Image, ImageDraw, ImageFont
 
 from mjdrive.bev import picture as bev_picture
 from mjdrive.bev.projector import BevProjector
 from mjdrive.datatypes import Episode, Observation, Town
+from mjdrive.episodes.views import states
 from mjdrive.files import write_atomically
-from mjdrive.learning.batches import states
+from mjdrive.recording import mp4
+from mjdrive.recording.pages import GAP, HEAD, LABEL, Page
+from mjdrive.recording.panels import PANEL, landscape_panel, map_panel
 from mjdrive.study.jobs.landscapes import probabilities
-from mjdrive.study.videos import mp4
-from mjdrive.study.videos.video_panels import INK, LINE, PANEL, WHITE, landscape_panel, map_panel
 from mjdrive.vehicle.parameters import VehicleParameters
 from models.interfaces import Learner
 
@@ -30,8 +30,6 @@ POINTS = 33
 
 MIDDLE_AHEAD = 20.0
 """The middle of the map lies so far ahead of where the car begins [m]: in the junction."""
-
-_GAP, _HEAD, _LABEL = 12, 40, 26  # between panels, above all rows, above each row [px]
 
 
 class Drive(NamedTuple):
@@ -66,12 +64,13 @@ def _frames(
     drives: Sequence[Drive], learner: Learner, town: Town, title: str
 ) -> Iterator[UInt8[np.ndarray, "H W 3"]]:
     studio = _Studio(learner, town, BevProjector(town), VehicleParameters.default())
-    page = _page(len(drives), title)
+    height = HEAD + len(drives) * (PANEL + LABEL) + GAP
+    page = Page(3 * PANEL + 4 * GAP, height + height % 2, title)
     for step in range(max(_num_steps(drive.episode) for drive in drives)):
         for row, drive in enumerate(drives):
             if step < _num_steps(drive.episode):  # who is through first waits for the other
-                _paste(page, row, studio.panels(drive.episode, step), drive, step)
-        yield np.asarray(page)
+                _put(page, row, studio.panels(drive.episode, step), drive, step)
+        yield page.picture
 
 
 def _num_steps(episode: Episode) -> int:
@@ -111,22 +110,8 @@ class _Studio(NamedTuple):
         )
 
 
-def _page(rows: int, title: str) -> Image.Image:
-    """An empty frame with its title."""
-    width, height = 3 * PANEL + 4 * _GAP, _HEAD + rows * (PANEL + _LABEL) + _GAP
-    page = Image.new("RGB", (width, height + height % 2), WHITE)
-    pen = ImageDraw.Draw(page)
-    pen.text((_GAP, _HEAD / 2), title, INK, ImageFont.load_default(20), anchor="lm")
-    return page
-
-
-def _paste(
-    page: Image.Image, row: int, panels: Sequence[np.ndarray], drive: Drive, step: int
-) -> None:
+def _put(page: Page, row: int, panels: Sequence[np.ndarray], drive: Drive, step: int) -> None:
     """Put the panels of a drive into their row, and write above them what they are."""
-    top = _HEAD + row * (PANEL + _LABEL)
-    pen, font = ImageDraw.Draw(page), ImageFont.load_default(15)
-    pen.rectangle((0, top, page.width, top + _LABEL - 1), fill=WHITE)
     speed = 3.6 * float(drive.episode.vehicle[step, 3])
     seconds = float(drive.episode.time[step] - drive.episode.time[0])
     labels = (
@@ -134,10 +119,4 @@ def _paste(
         "energy; ring: action chosen, left is left, up is throttle",
         f"{seconds:.1f} s, {speed:.0f} km/h",
     )
-    for column, (panel, label) in enumerate(zip(panels, labels, strict=True)):
-        left = _GAP + column * (PANEL + _GAP)
-        page.paste(Image.fromarray(panel), (left, top + _LABEL))
-        pen.rectangle(
-            (left, top + _LABEL, left + PANEL - 1, top + _LABEL + PANEL - 1), outline=LINE
-        )
-        pen.text((left, top + _LABEL / 2), label, INK, font, anchor="lm")
+    page.put_row(HEAD + row * (PANEL + LABEL), panels, labels)

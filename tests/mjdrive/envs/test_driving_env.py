@@ -12,11 +12,12 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 import mjdrive  # noqa: F401  (registers the environments)
-from mjdrive.config import EnvConfig, RewardConfig, from_dict
+from mjdrive.config import CameraConfig, EnvConfig, RewardConfig, from_dict
 from mjdrive.datatypes import InfractionKind, Observation
 from mjdrive.envs import registration
-from mjdrive.envs.driving_env import DrivingEnv
+from mjdrive.envs.driving_env import DrivingEnv, observation_space
 from mjdrive.errors import ConfigError, RenderError, RouteError, UnknownNameError
+from mjdrive.simulation import front_cameras
 from mjdrive.town import library
 
 FULL = np.array([1.0, 0.0], np.float32)
@@ -211,3 +212,27 @@ def test_settings_are_checked() -> None:
 
 def test_space_holds_what_a_policy_may_see() -> None:
     assert set(Observation.__slots__) == {"bev", "state"}
+
+
+def test_front_cameras_are_part_of_what_is_seen_if_asked_for() -> None:
+    small = CameraConfig(width_px=32, height_px=18)
+    with gymnasium.make("mjdrive/Town02-v0", cameras=small) as env:
+        first, _ = env.reset(seed=4)
+        assert env.observation_space.contains(first)
+        assert list(first) == ["bev", "state", *front_cameras.NAMES]
+        again, _ = env.reset(seed=4)
+        assert all(np.array_equal(first[name], again[name]) for name in first)
+        for _ in range(12):
+            driven, *_ = env.step(FULL)
+    for name in front_cameras.NAMES:
+        assert driven[name].shape == (18, 32, 3)
+        assert np.any(driven[name] != first[name])
+    assert observation_space(CameraConfig())["front"].shape == (144, 256, 3)
+
+
+def test_cameras_need_opengl_and_say_so_before_anything_runs(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("MUJOCO_GL", "off")
+    with pytest.raises(RenderError, match="MUJOCO_GL"):
+        DrivingEnv("town02", cameras=True)

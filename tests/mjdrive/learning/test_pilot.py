@@ -53,7 +53,7 @@ def test_choices_last_as_long_as_the_settings_say_and_end_with_the_drive(
     policy = pilot.load(run)
     given: list[torch.Tensor | None] = []
     monkeypatch.setattr(
-        policy._learner,
+        policy.learner,
         "act",
         lambda *_, generator, sides: given.append(sides) or torch.zeros(1, 2),
     )
@@ -142,6 +142,6 @@ def test_what_it_sees_goes_to_its_device(run: Path, monkeypatch: pytest.MonkeyPa
         seen.extend([bev.device, state.device])
         return torch.zeros(1, 2)
 
-    monkeypatch.setattr(policy._learner, "act", act)
+    monkeypatch.setattr(policy.learner, "act", act)
     policy.act(SEEN)
     assert seen == [elsewhere, elsewhere]

@@ -11,10 +11,11 @@ from matplotlib.figure import Figure
 
 from mjdrive.datatypes import Town
 from mjdrive.evaluation.bootstrap import Interval
+from mjdrive.evaluation.landscape import DEEPEST, energies
 from mjdrive.study.pictures import figures_ablation, figures_choices, figures_fans, figures_paths
 from mjdrive.study.pictures.figure_looks import COLOURS, Look, looks, main_arms
 from mjdrive.study.pictures.figures_ablation import AblationRow
-from mjdrive.study.pictures.figures_landscape import DEEPEST, draw_landscapes, draw_panel, energies
+from mjdrive.study.pictures.figures_landscape import draw_landscapes, draw_panel
 from mjdrive.study.records.fans import FanPath, FanRecord
 from mjdrive.study.records.measures import Curve
 from mjdrive.study.records.results import DrivenPath

@@ -10,11 +10,11 @@ import pytest
 
 from mjdrive.config import read_json, write_json
 from mjdrive.errors import DataError
+from mjdrive.recording import mp4
 from mjdrive.study.records.results import STUDY, StudyRecord
 from mjdrive.study.report import report
 from mjdrive.study.tables.report_tables import Table, read_markdown
 from mjdrive.study.tables.rows import markdown
-from mjdrive.study.videos import mp4
 from mjdrive.study.videos.turn_video import FRAMES_PER_SECOND
 from mjdrive.study.videos.videos import video_file
 

@@ -3,7 +3,7 @@ import io
 import av
 import numpy as np
 
-from mjdrive.study.videos import mp4
+from mjdrive.recording import mp4
 
 
 def moving_square() -> list[np.ndarray]:

@@ -3,7 +3,7 @@ import pytest
 
 from mjdrive.bev.picture import CAR
 from mjdrive.datatypes import Town
-from mjdrive.study.videos.video_panels import PANEL, WHITE, landscape_panel, map_panel
+from mjdrive.recording.panels import PANEL, WHITE, landscape_panel, map_panel
 from mjdrive.vehicle.parameters import VehicleParameters
 
 EVEN = np.full((9, 9), 1 / 81)

@@ -1,0 +1,1 @@
+"""Drives for other people: exported to their formats, and taken over from them."""

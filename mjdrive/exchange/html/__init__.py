@@ -1,0 +1,1 @@
+"""A drive as one web page that needs no network."""
