@@ -26,7 +26,7 @@ NOTEBOOKS = Path(__file__).resolve().parents[1] / "notebooks"
 PAGE = "index.html"
 TIMEOUT_S = 600  # for one cell, on any machine
 COVER_WIDTH_PX = 1100
-COVER_COLOURS = 128  # few curves and flat fields: a third of the bytes
+COVER_COLOURS = 256  # curves and flat fields need no more: a third of the bytes
 
 TEMPLATE = """<!doctype html>
 <html lang="en"><meta charset="utf-8"><title>mjdrive: notebooks</title>

@@ -1,6 +1,7 @@
 """What a notebook is to be like; nbmake runs them."""
 
 import ast
+import importlib
 import re
 from pathlib import Path
 
@@ -78,6 +79,17 @@ def test_it_uses_the_public_api_alone(path: Path) -> None:
                 assert not any(PRIVATE.search(name) for name in names), names
             if isinstance(node, ast.Attribute):
                 assert not node.attr.startswith("_"), node.attr
+
+
+@each_notebook
+def test_what_it_imports_exists(path: Path) -> None:
+    for source in code(path):
+        for node in ast.walk(ast.parse(source)):
+            if isinstance(node, ast.ImportFrom):
+                module = importlib.import_module(node.module)
+                for alias in node.names:
+                    if not hasattr(module, alias.name):
+                        importlib.import_module(f"{node.module}.{alias.name}")
 
 
 @each_notebook
