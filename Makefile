@@ -5,8 +5,9 @@ VENV := .venv
 BIN := $(VENV)/bin
 NOTEBOOKS := $(wildcard notebooks/*.ipynb)
 DEMO := demo
+GALLERY := gallery
 
-.PHONY: help install format check test demo clean
+.PHONY: help install format check test demo notebooks clean
 .DEFAULT_GOAL := help
 
 help:  ## Show this list
@@ -46,5 +47,8 @@ demo: install  ## Collect, train and drive small, in the folder demo/
 	@echo "Pictures:"
 	@ls -d $(CURDIR)/$(DEMO)/data/town01/*.png $(CURDIR)/$(DEMO)/drives/*/*.png
 
-clean:  ## Remove .venv and demo/
-	rm -rf $(VENV) $(DEMO)
+notebooks: install  ## Run the notebooks, and show them on one page in gallery/
+	$(BIN)/python scripts/notebook_gallery.py --out $(GALLERY)
+
+clean:  ## Remove .venv, demo/ and gallery/
+	rm -rf $(VENV) $(DEMO) $(GALLERY)

@@ -68,7 +68,7 @@ def write(recording: Recording, path: Path, *, on_step: Callable[[int], None]) -
             now = round(time * 1e9)
             writer.add_message(channels[topic], now, json.dumps(content).encode(), now)
         writer.add_metadata("episode", _about(recording))
-        writer.finish()
+        writer.finish()  # type: ignore[no-untyped-call]
 
 
 def _register(writer: Writer, kind: str) -> int:

@@ -96,19 +96,22 @@ def step_angle(
     return acceleration / (speed * single_track.yaw_rate_gain(speed))
 
 
-def step(plant: Plant, speed_kmh: float = SPEED_KMH) -> Step:
-    """Turn the wheel as fast as the steering allows, to where the linear model gives 4 m/s2, and hold it.
+def step(
+    plant: Plant, speed_kmh: float = SPEED_KMH, *, acceleration: float = ACCELERATION
+) -> Step:
+    """Turn the wheel as fast as the steering allows, to where the linear model gives an acceleration, and hold it.
 
     Args:
         plant: On a flat road.
         speed_kmh: Speed to hold [km/h].
+        acceleration: Steady lateral acceleration by the linear model; 4 m/s2, as ISO 7401 has it [m/s2].
 
     Returns:
         The step.
     """
     speed = speed_kmh / 3.6
     hold = SpeedHold(speed)
-    command = step_angle(plant.single_track, speed) / plant.max_steering_angle
+    command = step_angle(plant.single_track, speed, acceleration) / plant.max_steering_angle
     plant.place(speed=speed)
     plant.drive(lambda moment: Action(hold(moment), 0.0), duration=SETTLING)
     recording = plant.drive(lambda moment: Action(hold(moment), command), duration=DURATION)

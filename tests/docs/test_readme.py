@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 import mktestdocs
+import nbformat
 import pytest
 
 from mjdrive.cli.main import main
@@ -25,19 +26,29 @@ PAGES = [
         "docs/recordings.md",
         "docs/study.md",
         "docs/zoo.md",
+        "docs/notebooks.md",
     )
 ]
+NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
+
+
+def text_of(page: Path) -> str:
+    """The text of a page, or of a notebook without its code."""
+    if page.suffix == ".md":
+        return page.read_text()
+    cells = nbformat.read(page, as_version=4).cells
+    return "\n\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
 
 
 def blocks(page: Path) -> list[str]:
     """Every line of the shell blocks of a page."""
-    found = re.findall(r"^```bash\n(.*?)^```", page.read_text(), flags=re.MULTILINE | re.DOTALL)
+    found = re.findall(r"^```bash\n(.*?)^```", text_of(page), flags=re.MULTILINE | re.DOTALL)
     return [line for block in found for line in block.splitlines() if line]
 
 
 def mentions(page: Path) -> list[str]:
     """Every call of mjdrive or make within a line of text."""
-    found = re.findall(r"`([^`\n]+)`", page.read_text())
+    found = re.findall(r"`([^`\n]+)`", text_of(page))
     return [line for line in found if re.match(r"(mjdrive|make) [a-z]", line)]
 
 
@@ -55,7 +66,7 @@ def test_the_pages_show_the_three_lines() -> None:
         assert f"mjdrive {line}" in shown
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+@pytest.mark.parametrize("page", PAGES + NOTEBOOKS, ids=lambda page: page.name)
 def test_commands_and_their_options_exist(page: Path) -> None:
     targets = set(re.findall(r"^([a-z]+):", (ROOT / "Makefile").read_text(), flags=re.MULTILINE))
     for line in blocks(page) + mentions(page):
@@ -68,7 +79,7 @@ def test_commands_and_their_options_exist(page: Path) -> None:
             assert {word for word in rest if word.startswith("-")} <= known | {"--help"}, line
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+@pytest.mark.parametrize("page", PAGES + NOTEBOOKS, ids=lambda page: page.name)
 def test_lines_in_blocks_can_be_run(page: Path) -> None:
     for line in blocks(page):
         program, *words = shlex.split(line)
@@ -78,9 +89,9 @@ def test_lines_in_blocks_can_be_run(page: Path) -> None:
             command.parse_args(click.Context(command), rest)  # raises on what it cannot read
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+@pytest.mark.parametrize("page", PAGES + NOTEBOOKS, ids=lambda page: page.name)
 def test_links_and_paths_lead_somewhere(page: Path) -> None:
-    for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
+    for target in re.findall(r"\]\(([^)#:]+)\)", text_of(page)):
         assert (page.parent / target).exists(), target
 
 

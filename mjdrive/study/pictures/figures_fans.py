@@ -45,7 +45,7 @@ def draw_fans(fans: Sequence[tuple[str, FanRecord]], town: Town, path: Path) -> 
         for axes in grid.flat:
             axes.set_axis_off()
         for axes, (label, fan) in zip(grid.flat, fans, strict=False):
-            _draw_fan(axes, fan, town)
+            draw_fan(axes, fan, town)
             axes.set_title(f"{label}\n{_counts(fan, town)}", fontsize=8)
         handles = [
             Line2D([], [], color=colour, lw=2, label=f"went {move}" if move == "straight" else f"turned {move}")
@@ -61,7 +61,14 @@ def draw_fans(fans: Sequence[tuple[str, FanRecord]], town: Town, path: Path) -> 
         save(figure, path)
 
 
-def _draw_fan(axes: Axes, fan: FanRecord, town: Town) -> None:
+def draw_fan(axes: Axes, fan: FanRecord, town: Town) -> None:
+    """Draw every path from one moment over the map around it.
+
+    Args:
+        axes: Where; its limits are set.
+        fan: What was driven.
+        town: Where it was driven.
+    """
     draw_town(axes, town)
     for one in fan.paths:
         axes.add_collection(

@@ -50,6 +50,11 @@ def test_linear_car_passes_the_step_exactly(linear):
     assert step.lateral_acceleration == pytest.approx(step_steer.ACCELERATION, rel=1e-6)
 
 
+def test_a_step_can_be_made_for_another_acceleration(linear):
+    step = step_steer.step(linear, acceleration=1.5)
+    assert step.lateral_acceleration == pytest.approx(1.5, rel=1e-6)
+
+
 def test_steering_turns_no_faster_than_its_rate(linear):
     linear.place(speed=10.0)
     recording = linear.drive(lambda _: Action(0.0, 1.0), duration=0.5)

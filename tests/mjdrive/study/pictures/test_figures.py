@@ -123,7 +123,7 @@ def test_a_landscape_has_left_on_the_left_and_says_what_its_ways_weigh() -> None
 @pytest.mark.parametrize("move", ["left", "right"])
 def test_a_fan_has_the_colour_of_the_exit(town02: Town, tmp_path: Path, move: str) -> None:
     axes = Figure().add_subplot()
-    figures_fans._draw_fan(axes, fan(town02, move), town02)
+    figures_fans.draw_fan(axes, fan(town02, move), town02)
     lines = axes.collections[-3:]
     drawn = {matplotlib.colors.to_hex(line.get_color()[0][:3]) for line in lines}
     assert drawn == {figures_choices.MOVES[move]}
