@@ -36,6 +36,7 @@ _FIELDS: dict[str, dict[str, type]] = {
     "speed": {"factor": float},
     "load": {"town": str, "policy": str, "seed": int},
     "keep": {},
+    "watch": {},
     "hidden": {"on": bool},
 }
 

@@ -23,7 +23,7 @@ from mjdrive.web.session import Session
 from mjdrive.web.simulator import Simulator
 
 PAGE = Path(__file__).parent / "static"
-"""The built page; scripts/build_page.sh makes it of the sources in page/."""
+"""The built page; `npm run build` makes it of the sources in page/."""
 
 MOST_PAGES = 8
 TRY_LATER = 1013
@@ -80,7 +80,7 @@ async def _serve(websocket: WebSocket, hub: Hub, simulator: Simulator) -> None:
     outbox = Outbox(websocket.send_bytes, websocket.send_text)
     hub.add(outbox)
     pump = asyncio.create_task(outbox.pump())
-    simulator.ask(Command("hello"), outbox)
+    simulator.ask(Command("watch"), outbox)
     try:
         while True:
             _hear(await websocket.receive_text(), outbox, simulator)

@@ -176,7 +176,7 @@ class Simulator(threading.Thread):
                 f"Kept as {path}; learn from it with mjdrive train --data {path.parent}"
             )
 
-    def _on_hello(self, who: object) -> None:
+    def _on_watch(self, who: object) -> None:
         """A page has come: tell it all that others know already."""
         del who
         self._audience.tell("history", history_message(self.session))
