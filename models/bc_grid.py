@@ -50,7 +50,9 @@ class BcGridLearner(Learner):
         targets = smoothed_labels(
             batch.actions, points=settings.points, smoothing=settings.smoothing
         )
-        losses = -torch.einsum("bij,bi,bj->b", log_probabilities, targets[:, 0], targets[:, 1])
+        # No matrix product, which would be autocast.
+        shares = targets[:, 0, :, None] * targets[:, 1, None, :]  # (B, P, P)
+        losses = -(shares * log_probabilities).sum(dim=(1, 2))
         return weighted_mean(losses, weights)
 
     @torch.no_grad()

@@ -113,7 +113,7 @@ class _Contrast(Function):
                 slopes[:, 0] += 1
                 layers.descend(inputs[part], slopes * scales[part, None], part)
         ctx.save_for_backward(*layers.gradients())
-        return torch.cat(losses) @ scales
+        return (torch.cat(losses) * scales).sum()  # no matrix product, which would be autocast
 
     @staticmethod
     @once_differentiable

@@ -4,6 +4,7 @@ Shape letters: B batch, N noisy actions of each observation, H hidden units.
 """
 
 import math
+from contextlib import AbstractContextManager, nullcontext
 
 import torch
 from jaxtyping import Float
@@ -22,10 +23,12 @@ class Denoiser(nn.Module):
     never autocast: a density is an integral over many evaluations, and bfloat16 would move actions by up to 0.004.
     """
 
-    def __init__(self, feature_size: int, *, width: int) -> None:
+    def __init__(self, feature_size: int, *, width: int, action_gain: float = 1.0) -> None:
         super().__init__()
         self.observation = nn.Linear(feature_size, width)
         self.action = nn.Linear(ACTION_SIZE, width, bias=False)
+        with torch.no_grad():
+            self.action.weight *= action_gain
         self.time = nn.Linear(1 + 2 * NUM_FREQUENCIES, width, bias=False)
         self.second = nn.Linear(width, width)
         self.third = nn.Linear(width, width)
@@ -33,7 +36,7 @@ class Denoiser(nn.Module):
 
     def observe(self, features: Float[Tensor, "B F"]) -> Float[Tensor, "B 1 H"]:
         """What the observations [-] add to the first layer, to be handed to every evaluation [-]."""
-        with torch.autocast(features.device.type, enabled=False):
+        with _uncast(features.device):
             return self.observation(features.float())[:, None]
 
     def forward(
@@ -52,7 +55,7 @@ class Denoiser(nn.Module):
         Returns:
             One vector an action, in single precision [-].
         """
-        with torch.autocast(noisy.device.type, enabled=False):
+        with _uncast(noisy.device):
             units = F.silu(self._first(observed, noisy, times))
             return self.last(F.silu(self.third(F.silu(self.second(units)))))
 
@@ -72,20 +75,28 @@ class Denoiser(nn.Module):
             One vector an action [-], and the divergence there [-].
         """
         before = self._first(observed, noisy, time)
-        slopes = self.action.weight.t()[:, None] * _silu_slope(before)  # (2, N, H)
-        units = F.silu(before)
+        # The value and its two derivatives, one below the other, so that a layer is one product.
+        rows = torch.cat((before[None], self.action.weight.t()[:, None].expand(-1, *before.shape)))
+        _bend_(rows)
         for layer in (self.second, self.third):
-            before = layer(units)
-            slopes = F.linear(slopes, layer.weight) * _silu_slope(before)
-            units = F.silu(before)
+            rows = rows @ layer.weight.t()
+            rows[0] += layer.bias
+            _bend_(rows)
         # The derivative of a component by itself takes one row of the last layer each.
-        divergence = torch.einsum("anh,ah->n", slopes, self.last.weight)
-        return self.last(units), divergence
+        divergence = (rows[1:] @ self.last.weight[:, :, None]).sum(dim=0).squeeze(1)
+        return self.last(rows[0]), divergence
 
     def _first(self, observed: Tensor, noisy: Tensor, times: Tensor | float) -> Tensor:
         """The first layer before its bend."""
         times = torch.as_tensor(times, device=noisy.device, dtype=noisy.dtype)
         return observed + self.action(noisy) + self.time(_embedded(times))
+
+
+def _uncast(device: torch.device) -> AbstractContextManager[object]:
+    """Switch autocasting off where it is on; some devices have none."""
+    if not torch.is_autocast_enabled(device.type):
+        return nullcontext()
+    return torch.autocast(device.type, enabled=False)
 
 
 def _embedded(times: Float[Tensor, "*B"]) -> Float[Tensor, "*B E"]:
@@ -95,7 +106,8 @@ def _embedded(times: Float[Tensor, "*B"]) -> Float[Tensor, "*B E"]:
     return torch.cat((times[..., None], angles.sin(), angles.cos()), dim=-1)
 
 
-def _silu_slope(x: Tensor) -> Tensor:
-    """Derivative of x * sigmoid(x)."""
-    sigmoid = x.sigmoid()
-    return sigmoid * (1 + x * (1 - sigmoid))
+def _bend_(rows: Float[Tensor, "3 N H"]) -> None:
+    """Replace values by x * sigmoid(x), and the two derivatives below them by those of that."""
+    sigmoid = rows[0].sigmoid()
+    bent = rows[0].mul_(sigmoid)
+    rows[1:] *= torch.addcmul(bent, sigmoid, 1 - bent)

@@ -13,8 +13,8 @@ from torch import Tensor
 from models.generative import GenerativeLearner
 from models.interfaces import ACTION_BOUND
 
-# A noise tells nothing of the action where there is nothing but noise; 1 / cos(phi) is 64 here.
-LAST_TIME_OF_NOISE = 0.99
+# Where there is nothing but noise, it tells nothing of the action: an error in it moves the action by 13 times that here.
+LAST_TIME_OF_NOISE = 0.95
 
 
 class DiffusionLearner(GenerativeLearner):

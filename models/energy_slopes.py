@@ -21,7 +21,8 @@ class EnergySlopes:
     Args:
         head: The energy; its weights are read now, with their gradients where those are enabled.
         features: One vector an observation, shape (B, F) [-].
-        precision: Number format of the two large products; actions and first layer are float32.
+        precision: Number format of the two large products; actions and first layer are float32. Not for use under
+            autocast, which would round them too.
     """
 
     def __init__(
@@ -32,19 +33,17 @@ class EnergySlopes:
         observation_weight, self._action_weight = head.first.weight.split(
             [features.shape[1], ACTION_SIZE], dim=1
         )
-        with torch.autocast(features.device.type, enabled=False):
-            with torch.no_grad():
-                observed = F.linear(features.float(), observation_weight, head.first.bias)
-                self._observed = observed[:, None]  # (B, 1, H)
-                self._second = head.second.weight.to(dtype), head.second.bias.to(dtype)
-            self._back = (head.last.weight.T * head.second.weight).to(dtype)  # (H, H)
+        with torch.no_grad():
+            observed = F.linear(features.float(), observation_weight, head.first.bias)
+            self._observed = observed[:, None]  # (B, 1, H)
+            self._second = head.second.weight.to(dtype), head.second.bias.to(dtype)
+        self._back = (head.last.weight.T * head.second.weight).to(dtype)  # (H, H)
 
     def __call__(self, actions: Float[Tensor, "B N 2"]) -> Float[Tensor, "B N 2"]:
         """Slopes at some actions of each observation [nats], for which the actions themselves get no gradient."""
-        with torch.autocast(actions.device.type, enabled=False):
-            first_active, second_active = self._active_units(actions)
-            slopes = (second_active.to(self._back.dtype) @ self._back).float()
-            return (slopes * first_active) @ self._action_weight
+        first_active, second_active = self._active_units(actions)
+        slopes = (second_active.to(self._back.dtype) @ self._back).float()
+        return (slopes * first_active) @ self._action_weight
 
     @torch.no_grad()
     def _active_units(

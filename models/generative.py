@@ -30,7 +30,11 @@ class GenerativeLearner(Learner):
         super().__init__()
         self.config = config
         self.encoder = Encoder(config.network)
-        self.denoiser = Denoiser(self.encoder.feature_size, width=config.denoiser.width)
+        self.denoiser = Denoiser(
+            self.encoder.feature_size,
+            width=config.denoiser.width,
+            action_gain=config.denoiser.action_gain,
+        )
 
     @abstractmethod
     def mix(

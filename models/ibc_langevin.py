@@ -42,12 +42,14 @@ class LangevinIbcLearner(IbcLearner):
         settings = self.config.langevin_negatives
         state = drop_previous_action(batch.state, chance.keeps_previous)
         features = self.encoder(batch.bev, state)
-        negatives = self._walked(features.detach(), chance)
+        with torch.autocast(features.device.type, enabled=False):
+            negatives = self._walked(features.detach(), chance)
         candidates = torch.cat((batch.actions[:, None], negatives), dim=1)  # (B, 1 + N, 2)
         loss = contrastive_loss(self.energy, features, candidates, weights=weights)
         if settings.penalty_weight == 0:
             return loss
-        slopes = EnergySlopes(self.energy, features.detach())(candidates)
+        with torch.autocast(features.device.type, enabled=False):
+            slopes = EnergySlopes(self.energy, features.detach())(candidates)
         penalties = gradient_penalty(slopes, margin=settings.penalty_margin)
         return loss + settings.penalty_weight * weighted_mean(penalties, weights)
 

@@ -7,12 +7,15 @@ from models.config import (
     METHODS,
     BetaConfig,
     CategoricalConfig,
+    ChainConfig,
     DenoiserConfig,
     DensityConfig,
     DfoConfig,
     DiffusionConfig,
     FlowConfig,
     GridConfig,
+    LangevinConfig,
+    LangevinNegativesConfig,
     LearnerConfig,
     Method,
     MixtureConfig,
@@ -62,17 +65,26 @@ def _effective(method: Method, *, epochs: int, negatives: int) -> LearnerConfig:
         ),
         mixture=MixtureConfig(components=5),
         categorical=CategoricalConfig(points=65, smoothing=0.05, choice="sample"),
-        denoiser=DenoiserConfig(width=256, draws=16),
+        denoiser=DenoiserConfig(width=128, action_gain=8.0, draws=16),
         diffusion=DiffusionConfig(prediction="v", sampler="ddpm", steps=16),
         flow=FlowConfig(integrator="midpoint", steps=8),
         negatives=NegativesConfig(
-            count=negatives, sigma=0.2, clip=False, uniform_share=0.5, correction="ranking"
+            # Chains of 25 steps cost as much as fifty negatives that are merely drawn.
+            count=negatives // 8 if method == "ibc-langevin" else negatives,
+            sigma=0.2,
+            clip=False,
+            uniform_share=0.5,
+            correction="ranking",
+        ),
+        langevin_negatives=LangevinNegativesConfig(
+            chain=ChainConfig(iterations=25), penalty_margin=10.0
         ),
         density=DensityConfig(weighting="none"),
         sampler=SamplerConfig(
             kind="grid",
             dfo=DfoConfig(num_samples=2048, temper=True),
             grid=GridConfig(points=65),
+            langevin=LangevinConfig(num_chains=128, chain=ChainConfig(iterations=50)),
         ),
         optimiser=OptimiserConfig(
             # The likelihood of a narrow Beta has steep gradients: at 8e-4 the encoder of BC-Beta dies.
@@ -106,10 +118,13 @@ def paper(method: Method) -> LearnerConfig:
         denoiser=ours.denoiser,
         diffusion=ours.diffusion,
         flow=ours.flow,
-        negatives=NegativesConfig(count=1024, sigma=0.22, clip=True),
+        # Chains find their negatives; 8 of them, and the lowest end to act with, are published.
+        negatives=NegativesConfig(
+            count=8 if method == "ibc-langevin" else 1024, sigma=0.22, clip=True
+        ),
         density=DensityConfig(bandwidth=0.2, weighting="sampler"),
         sampler=SamplerConfig(
-            kind="dfo",
+            kind="langevin" if method == "ibc-langevin" else "dfo",
             dfo=DfoConfig(num_samples=16384, iterations=5, sigma_init=0.5, shrink=0.5),
         ),
         optimiser=OptimiserConfig(learning_rate=1e-5, epochs=400, batch_size=128),

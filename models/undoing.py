@@ -14,7 +14,7 @@ from torch import Tensor
 from torch.nn import functional as F  # noqa: N812
 
 from models.config import DensityConfig, LearnerConfig, NegativesConfig
-from models.density import inverse_weights
+from models.density import action_density, inverse_weights
 from models.interfaces import ACTION_BOUND, ACTION_SIZE
 
 # Between lattice points of a Gaussian the interpolated logarithm is off by 1 / (8 * 16^2), 0.0005 nats.
@@ -48,10 +48,36 @@ def surface(
     return torch.stack((total, *slopes)).float()
 
 
+def without_weights(
+    log_density: Float[Tensor, "B N"],
+    actions: Float[Tensor, "A N 2"],
+    *,
+    settings: DensityConfig,
+    demonstrated: Float[Tensor, "D 2"],
+) -> Float[Tensor, "B N"]:
+    """Take the weights of the demonstrations out of a density of any method.
+
+    Energies do this by themselves where `sampler.undo` says so; other methods do not remember the demonstrations.
+
+    Args:
+        log_density: What a learner trained with weights says of actions [nats].
+        actions: These actions, for each observation or shared by all (A = 1) [-].
+        settings: How the demonstrations were weighed.
+        demonstrated: Every expert action trained on [-].
+
+    Returns:
+        Log of the density without weights, up to a constant of each observation [nats].
+    """
+    axis = _lattice(settings.bandwidth, demonstrated.device)
+    density = action_density(demonstrated, settings)
+    weights = _log_weights(axis, settings, demonstrated, density).float()
+    return log_density - read(weights[None], actions)[0]
+
+
 def read(
-    surface: Float[Tensor, "3 G G"], actions: Float[Tensor, "A N 2"]
-) -> Float[Tensor, "3 A N"]:
-    """Values and slopes of a surface at actions in [-1, 1] [nats]."""
+    surface: Float[Tensor, "C G G"], actions: Float[Tensor, "A N 2"]
+) -> Float[Tensor, "C A N"]:
+    """All channels of a surface at actions in [-1, 1] [nats]."""
     # grid_sample wants the index that runs fastest first.
     places = actions.flip(-1)[None] / ACTION_BOUND
     found = F.grid_sample(surface[None], places, padding_mode="border", align_corners=True)
@@ -65,8 +91,12 @@ def _axis(config: LearnerConfig, device: torch.device) -> Float64[Tensor, " G"]:
         kernels.append(config.negatives.sigma)
     if config.sampler.undo in {"density", "both"}:
         kernels.append(config.density.bandwidth)
-    wanted = 1 + math.ceil(2 * ACTION_BOUND * POINTS_A_KERNEL / min(kernels))
-    points = min(wanted, MOST_POINTS)
+    return _lattice(min(kernels), device)
+
+
+def _lattice(kernel: float, device: torch.device) -> Float64[Tensor, " G"]:
+    """Coordinates from -1 to 1 that are dense enough for kernels of a standard deviation [-]."""
+    points = min(1 + math.ceil(2 * ACTION_BOUND * POINTS_A_KERNEL / kernel), MOST_POINTS)
     return torch.linspace(-ACTION_BOUND, ACTION_BOUND, points, dtype=torch.float64, device=device)
 
 

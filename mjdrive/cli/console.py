@@ -121,7 +121,7 @@ def stage_bars() -> Iterator[Callable[[str, int], Callable[[str, int, int], None
     with progress_bars() as bars:
 
         def begin(stage: str, count: int) -> Callable[[str, int, int], None]:
-            whole = bars.add_task(escape(stage), total=count, unit="items")
+            whole = bars.add_task(escape(stage), total=count, unit="items", visible=count > 0)
             tasks: dict[str, TaskID] = {}
 
             def report(thing: str, done: int, expected: int) -> None:

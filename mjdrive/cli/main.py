@@ -17,6 +17,7 @@ from mjdrive.cli.study import study
 from mjdrive.cli.towns import towns
 from mjdrive.cli.train import train
 from mjdrive.cli.tune import tune
+from mjdrive.cli.view import view
 from mjdrive.errors import MjdriveError
 
 EXIT_MISTAKE = 2
@@ -79,5 +80,5 @@ def main() -> None:
     """Run `mjdrive`."""
 
 
-for command in (collect, train, drive, serve, study, tune, towns, car, bench, info):
+for command in (collect, train, drive, serve, view, study, tune, towns, car, bench, info):
     main.add_command(command)

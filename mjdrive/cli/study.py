@@ -121,19 +121,20 @@ def study(
 def _close(results: "StudyResults", folder: Path, preset: str) -> None:
     """Say what there is to look at."""
     from mjdrive.cli.console import closing_table
+    from mjdrive.study import report, tables
     from mjdrive.study import results as files
-    from mjdrive.study import tables
 
     closing_table(
         f"Study, preset {preset}",
         {
             "agents": len({(it.variant, it.seed) for it in results.arms}),
             "ways to act": len({it.arm for it in results.arms}),
+            "report": folder / report.REPORT,
             "tables": folder / tables.TABLES,
             "results": folder / files.RESULTS,
             "settings": folder / files.STUDY,
         },
-        next_command=f"cat {folder / tables.TABLES / tables.PAPER}",
+        next_command=f"python -m webbrowser {folder / report.REPORT}",
     )
 
 

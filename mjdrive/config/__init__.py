@@ -1,6 +1,7 @@
 """Frozen settings, and how they are written to and read from JSON."""
 
 from mjdrive.config.collecting import CollectConfig, DisturbanceConfig, ExpertName
+from mjdrive.config.driving_env import EnvConfig, InfractionName, RewardConfig
 from mjdrive.config.json_files import from_dict, read_json, require, to_json, write_json
 from mjdrive.config.mpc import MpcConfig
 from mjdrive.config.settings import (
@@ -19,11 +20,14 @@ __all__ = [
     "CollectConfig",
     "Demonstrations",
     "DisturbanceConfig",
+    "EnvConfig",
     "ExpertName",
     "ExtraLayer",
+    "InfractionName",
     "MpcConfig",
     "PidConfig",
     "Reference",
+    "RewardConfig",
     "RulesConfig",
     "SimulationConfig",
     "StudyConfig",

@@ -23,6 +23,23 @@ EPOCHS = "epochs"
 _KEPT = (runs.SOURCE, checkpoint.CONFIG, checkpoint.MODEL, checkpoint.STATE)
 """What a checkpoint that only drives consists of."""
 
+_ENERGY = ("negatives.", "sampler.kind", "sampler.dfo.", "sampler.grid.", "sampler.undo")
+
+MATTERS: dict[str, tuple[str, ...]] = {
+    "bc-beta": ("beta.",),
+    "bc-mixture": ("beta.", "mixture."),
+    "bc-grid": ("categorical.",),
+    "ibc": _ENERGY,
+    "da-ibc": _ENERGY,
+    "ibc-langevin": (*_ENERGY, "langevin_negatives.", "sampler.langevin."),
+    "diffusion": ("denoiser.", "diffusion."),
+    "flow": ("denoiser.", "flow."),
+}
+"""How the settings begin that have an effect on a method, beside those that have one on all."""
+
+MATTERS_TO_ALL = ("method", "network.", "density.", "optimiser.")
+"""How the settings begin that have an effect on every method."""
+
 
 def keep_epoch(run: Path, *, every: int) -> None:
     """Keep a copy of the last complete epoch of a run if it is due and not kept yet.
@@ -134,13 +151,20 @@ def _settled_as(config: LearnerConfig, found: LearnerConfig) -> LearnerConfig:
 
 
 def _differing(wanted: LearnerConfig, found: LearnerConfig) -> list[str]:
-    """Settings that differ, with both values."""
-    here, there = (_flat(json.loads(serialization.to_json(it))) for it in (wanted, found))
+    """Settings that differ and have an effect, with both values."""
+    here, there = effective_settings(wanted), effective_settings(found)
     return [
         f"{name} {there.get(name)} (here {here.get(name)})"
         for name in sorted({*here, *there})
         if here.get(name) != there.get(name)
     ]
+
+
+def effective_settings(config: LearnerConfig) -> dict[str, Any]:
+    """The settings of a learner that have an effect on it, as JSON values by their dotted names."""
+    matters = (*MATTERS_TO_ALL, *MATTERS[config.method])
+    values = _flat(json.loads(serialization.to_json(config)))
+    return {name: value for name, value in values.items() if name.startswith(matters)}
 
 
 def _flat(values: dict[str, Any], prefix: str = "") -> dict[str, Any]:

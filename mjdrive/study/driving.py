@@ -97,7 +97,7 @@ class StudyDriving:
         return partial(_drive, self.place.simulation())
 
 
-def make_drives(
+def drive_all(
     place: Place, jobs: Sequence[DriveJob], *, executor: Executor, report: Report
 ) -> None:
     """Make the drives that are missing.

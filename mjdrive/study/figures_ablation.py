@@ -6,6 +6,7 @@ from pathlib import Path
 
 import matplotlib.style
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from mjdrive.evaluation.bootstrap import Interval
 from mjdrive.picture_style import STYLE, save
@@ -58,6 +59,7 @@ def draw_ablation(
             axes.tick_params(axis="y", length=0)
             axes.tick_params(axis="x", labelsize=7.5)
             axes.margins(x=0.08)
+            axes.xaxis.set_major_locator(MaxNLocator(nbins=3))
             axes.spines["left"].set_visible(False)
         every = [row for group in groups for row in group]
         grid[0].set_yticks([height for heights in places for height in heights], [it.label for it in every])  # fmt: skip

@@ -1,13 +1,13 @@
 """Every picture of a study, drawn from its JSON files alone."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from mjdrive.bev import picture as bev_picture
 from mjdrive.bev.projector import BevProjector
 from mjdrive.datatypes import Town
 from mjdrive.study import (
-    bev_picture,
     figures_ablation,
     figures_choices,
     figures_fans,
@@ -117,7 +117,9 @@ class _Drawing:
             shown = agents[first : first + LANDSCAPES_A_PICTURE]
             name = f"landscapes-{number}"
             self._draw_landscapes([it for it in records if (it.arm, it.seed) in shown], name)
-            yield self._picture(name, "landscapes")
+            drawn = self._picture(name, "landscapes")
+            several = f"{drawn.title} ({number})"
+            yield drawn if len(agents) <= LANDSCAPES_A_PICTURE else replace(drawn, title=several)
 
     def fans(self) -> Iterator[Picture]:
         """One moment lived many times."""

@@ -87,7 +87,7 @@ def write_report(folder: Path) -> Path:
         command=f"mjdrive study --preset {config.preset}",
         sections={title: figures for title, figures in sections.items() if figures},
         facts=_facts(study),
-        settings=to_json(config),
+        settings=to_json(study.record),
     )
     write_atomically(folder / REPORT, page.encode())
     return folder / REPORT

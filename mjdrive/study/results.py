@@ -10,6 +10,7 @@ turns/<arm>-<seed>-<exit>.hdf5        one drive through each exit of one junctio
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from mjdrive.config import StudyConfig
 from mjdrive.evaluation.choices import ChoiceStatistics
@@ -31,6 +32,7 @@ class StudyRecord:
 
     Attributes:
         settings: All that decides its results.
+        learners: Settings that each variant is trained with, by its name, as JSON values by their dotted names.
         versions: Versions of the software.
         towns: Digest of each town that is driven in, by name.
         car: Digest of the car that drives.
@@ -39,6 +41,7 @@ class StudyRecord:
     """
 
     settings: StudyConfig
+    learners: Mapping[str, dict[str, Any]]
     versions: Mapping[str, str]
     towns: Mapping[str, str]
     car: str

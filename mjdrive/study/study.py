@@ -6,20 +6,23 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from mjdrive import versions
-from mjdrive.config import CollectConfig, Demonstrations, StudyConfig
-from mjdrive.episodes import dataset, demonstrations, presets
-from mjdrive.episodes.plan import lay_routes, plan
+from mjdrive.config import StudyConfig
+from mjdrive.datatypes import Town
+from mjdrive.episodes import dataset
 from mjdrive.errors import DataError, UnknownNameError
 from mjdrive.execution.serial import SerialExecutor
 from mjdrive.execution.work import Executor
-from mjdrive.study import checkpoints, tables
+from mjdrive.study import checkpoints, videos
 from mjdrive.study.agents import Agent, agents, learner_config, require_buildable
 from mjdrive.study.assembling import assemble
-from mjdrive.study.driving import Place, Report, make_drives
+from mjdrive.study.collecting import collections
+from mjdrive.study.drivers import load_learner
+from mjdrive.study.driving import Place, Report, drive_all
 from mjdrive.study.folder import HELD_OUT, StudyFolder, begin
 from mjdrive.study.forks import live_forks
 from mjdrive.study.judging import Judging, judge_all
 from mjdrive.study.plan import ArmPlan, plan_arms, plan_progress, plan_references
+from mjdrive.study.report import write_report
 from mjdrive.study.results import StudyRecord, StudyResults
 from mjdrive.study.training import TrainingJob, train_all
 from mjdrive.town import library
@@ -108,6 +111,10 @@ class Study:
         names = sorted({self.config.town, self.config.learning_town})
         return StudyRecord(
             settings=self.config,
+            learners={
+                it.name: checkpoints.effective_settings(learner_config(it))
+                for it in self.config.variants
+            },
             versions=versions.all_versions(),
             towns={name: library.load(name).digest for name in names},
             car=cars.load().digest,
@@ -117,36 +124,12 @@ class Study:
 
     def _collect(self, stage: Stage) -> dict[str, Path]:
         """Collect the data sets that are not given, and the expert's walk that nobody learns from."""
-        config = self.config
-        wanted = [
-            (config.learning_town, self._names.data(it.name), _collecting(it), config.seed)
-            for it in config.demonstrations
-            if it.name not in self.data
-        ]
-        if config.held_out_km:
-            walk = CollectConfig(random_walk_km=config.held_out_km)
-            wanted.append((config.town, self._names.data(HELD_OUT), walk, config.seed + 1))
-        planned = []
-        for town_name, folder, settings, seed in wanted:
-            town, waypoints = library.load(town_name), library.load_settings(town_name).routes
-            routes = lay_routes(town, waypoints, settings=settings)
-            count = len(plan(town, routes, settings=settings, seed=seed))
-            planned.append((town, routes, folder, settings, seed, count))
-        report = stage("collect", sum(count for *_, count in planned))
-        for town, routes, folder, settings, seed, _ in planned:
-            demonstrations.collect(
-                town,
-                routes,
-                folder,
-                settings=settings,
-                seed=seed,
-                executor=self.executor,
-                report=_prefixed(report, folder.name),
-            )
-        return {
-            it.name: self.data.get(it.name, self._names.data(it.name))
-            for it in config.demonstrations
-        }
+        wanted = collections(self.config, self._names, given=self.data)
+        report = stage("collect", sum(it.num_episodes for it in wanted))
+        for it in wanted:
+            it.collect(executor=self.executor, report=report)
+        names = [it.name for it in self.config.demonstrations]
+        return {name: self.data.get(name, self._names.data(name)) for name in names}
 
     def _train(
         self, data: Mapping[str, Path], given: Mapping[str, Path], stage: Stage
@@ -193,7 +176,7 @@ class Study:
         progress = plan_progress(self.config, self._names, runs)
         drives = [job for it in (*references, *arms) for job in it.all_drives]
         drives += [job for it in progress for job in it.drives]
-        make_drives(place, drives, executor=self.executor, report=stage("drive", len(drives)))
+        drive_all(place, drives, executor=self.executor, report=stage("drive", len(drives)))
         forks = [job for it in arms for job in it.forks]
         live_forks(
             place, forks, executor=self.executor, report=stage("live moments again", len(forks))
@@ -208,8 +191,27 @@ class Study:
             arms=arms,
             progress=progress,
         )
-        tables.write_tables(self.folder)
+        self._show(found, arms, town, stage)
         return found
+
+    def _show(
+        self, found: StudyResults, arms: tuple[ArmPlan, ...], town: Town, stage: Stage
+    ) -> None:
+        """Write videos, tables, pictures and the report."""
+        who = {(it.it.arm.name, it.it.agent.seed): it.who for it in arms if it.it is not None}
+        agents_seen = len({(turn.arm, turn.seed) for turn in found.turns})
+        report = stage("videos", agents_seen)
+        videos.write_videos(
+            found.turns,
+            lambda arm, seed: load_learner(who[arm, seed]),
+            {arm.name: arm.label for arm in self.config.arms},
+            town,
+            self.folder,
+            on_video=lambda done: report(f"video {done}", 1, 1),
+        )
+        report = stage("report", 1)
+        write_report(self.folder)
+        report("report", 1, 1)
 
     def _judge(self, place: Place, arms: tuple[ArmPlan, ...], stage: Stage) -> None:
         jobs = [it.judge for it in arms if it.judge is not None]
@@ -218,16 +220,5 @@ class Study:
         judge_all(work, jobs, executor=self.executor, report=stage("judge", len(jobs)))
 
 
-def _collecting(it: Demonstrations) -> CollectConfig:
-    return presets.chosen(
-        it.preset, routes=it.routes or None, random_walk_km=it.random_walk_km or None
-    )
-
-
 def _samples(place: Path) -> int:
     return sum(entry.steps for entry in dataset.read_manifest(place).episodes)
-
-
-def _prefixed(report: Report, name: str) -> Report:
-    """Name what is reported after where it belongs, as two data sets drive routes of the same names."""
-    return lambda item, done, expected: report(f"{name}, {item}", done, expected)

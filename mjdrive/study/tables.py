@@ -93,9 +93,12 @@ def paper_table(config: StudyConfig, found: StudyResults) -> str:
 def multimodality_table(config: StudyConfig, found: StudyResults) -> str:
     """What is chosen where the road forks, and how many ways to act a policy sees."""
     all_drives = duration(config.steps * config.episodes)
+    everything = (
+        f"{duration(config.steps * config.episodes + config.long_steps)}, long drive included"
+    )
     columns: tuple[Column, ...] = (
         (f"branch recall in {all_drives}", _agent(lambda it: it.choices.recall)),
-        ("branch recall with the long drive", _long(lambda it: it.all_choices.recall)),
+        (f"branch recall in {everything}", _long(lambda it: it.all_choices.recall)),
         ("directed lanes visited", _agent(lambda it: it.coverage.share[-1])),
         ("km to half of them", _agent(km_to_half)),
         ("branch entropy", _agent(lambda it: it.all_choices.entropy)),

@@ -8,11 +8,12 @@ import numpy as np
 from jaxtyping import UInt8
 from PIL import Image, ImageDraw, ImageFont
 
+from mjdrive.bev import picture as bev_picture
 from mjdrive.bev.projector import BevProjector
 from mjdrive.datatypes import Episode, Observation, Town
 from mjdrive.files import write_atomically
 from mjdrive.learning.batches import states
-from mjdrive.study import bev_picture, mp4
+from mjdrive.study import mp4
 from mjdrive.study.landscapes import probabilities
 from mjdrive.study.video_panels import INK, LINE, PANEL, WHITE, landscape_panel, map_panel
 from mjdrive.vehicle.parameters import VehicleParameters

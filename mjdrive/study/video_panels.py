@@ -8,9 +8,9 @@ import matplotlib
 import numpy as np
 from jaxtyping import Float, UInt8
 
+from mjdrive.bev.picture import CAR, GROUND, LIGHTS, ROAD, Rgb
 from mjdrive.datatypes import Town
 from mjdrive.geometry import world_from_vehicle
-from mjdrive.study.bev_picture import CAR, GROUND, LIGHTS, ROAD, Rgb
 from mjdrive.study.figures_landscape import DEEPEST, energies
 from mjdrive.town import signals
 from mjdrive.town.surface import edges
@@ -43,11 +43,14 @@ def landscape_panel(
     colours = np.rint(255 * _colours()).astype(np.uint8)
     height = np.rint(energies(probabilities) / DEEPEST * 255).astype(np.uint8)
     small = colours[height[::-1, ::-1]]  # upwards is first, left is positive
-    image = np.ascontiguousarray(cv2.resize(small, (PANEL, PANEL), interpolation=cv2.INTER_CUBIC))
-    middle = PANEL // 2
-    cv2.line(image, (middle, 0), (middle, PANEL), LINE, 1, cv2.LINE_AA)
-    cv2.line(image, (0, middle), (PANEL, middle), LINE, 1, cv2.LINE_AA)
-    place = _fine(middle * (1.0 - action[::-1]))
+    middle, inner = PANEL // 2, PANEL - 2 * FRAME
+    image = np.full((PANEL, PANEL, 3), GROUND, np.uint8)
+    image[FRAME:-FRAME, FRAME:-FRAME] = cv2.resize(
+        small, (inner, inner), interpolation=cv2.INTER_CUBIC
+    )
+    cv2.line(image, (middle, FRAME), (middle, PANEL - FRAME), LINE, 1, cv2.LINE_AA)
+    cv2.line(image, (FRAME, middle), (PANEL - FRAME, middle), LINE, 1, cv2.LINE_AA)
+    place = _fine(middle - inner / 2 * action[::-1])
     cv2.circle(image, place, 9 * _FINE, INK, cv2.FILLED, cv2.LINE_AA, _SUBPIXELS)
     cv2.circle(image, place, 7 * _FINE, WHITE, cv2.FILLED, cv2.LINE_AA, _SUBPIXELS)
     return image

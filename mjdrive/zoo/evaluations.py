@@ -56,7 +56,9 @@ def _description(folder: Path) -> dict[str, str]:
     try:
         values: dict[str, str] = json.loads((folder / DESCRIPTION).read_text())
         settings: dict[str, Any] = json.loads(values["settings"])
-        return {**values, "acting": json.dumps(settings["policy"])}
+        known = {name: values[name] for name in ("town", "car", "policy_digest")}
+        seed = {"seed": values["seed"]} if "seed" in values else {}
+        return {**known, **seed, "acting": json.dumps(settings["policy"])}
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise DataError(
             f"Cannot read '{folder / DESCRIPTION}': {error}. Expected the folder that `mjdrive drive --episodes N` or "

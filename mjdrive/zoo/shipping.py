@@ -1,6 +1,7 @@
 """A training run -> an entry of the zoo: weights rounded where that changes little, settings, card, page."""
 
 import dataclasses
+import shlex
 import shutil
 from collections.abc import Callable, Iterable
 from pathlib import Path
@@ -18,7 +19,7 @@ from mjdrive.learning.batches import PackedDemonstrations
 from mjdrive.learning.settings import acting_changed
 from mjdrive.learning.training import Source
 from mjdrive.simulation.simulation import Simulation
-from mjdrive.zoo.cards import ModelCard, Training, Weights
+from mjdrive.zoo.cards import ModelCard, Training, Weights, read_card
 from mjdrive.zoo.entries import CARD, PAGE
 from mjdrive.zoo.evaluations import read_evaluation
 from mjdrive.zoo.page import to_page
@@ -109,6 +110,37 @@ def ship(
         entry.rename(zoo / name)
     finally:
         shutil.rmtree(entry, ignore_errors=True)
+    return card
+
+
+def refresh(entry: Path, *, simulation: Simulation | None = None) -> ModelCard:
+    """Write the card of an entry again, after presets or wording changed.
+
+    Args:
+        entry: Its folder.
+        simulation: Where its reference drive is made again, after the physics changed; it is kept if None.
+
+    Returns:
+        The new card.
+
+    Raises:
+        ConfigError: If it has no card.
+        RunError: If it cannot be loaded, or does not drive any more.
+    """
+    card = read_card(entry)
+    *collects, trained = card.training.commands
+    words = shlex.split(trained)
+    command = training_command(
+        checkpoint.load_config(entry),
+        seed=card.training.seed,
+        data=Path(words[words.index("--data") + 1]),
+    )
+    card = dataclasses.replace(
+        card,
+        training=dataclasses.replace(card.training, commands=(*collects, command)),
+        reference=card.reference if simulation is None else make_reference(entry, simulation),
+    )
+    write_card(card, entry)
     return card
 
 

@@ -6,11 +6,24 @@ from pathlib import Path
 from typing import Any
 
 from models import presets, serialization
-from models.config import LearnerConfig
+from models.config import LearnerConfig, Method
+
+_SECTIONS: dict[Method, set[str]] = {
+    "bc-beta": {"beta"},
+    "bc-mixture": {"beta", "mixture"},
+    "bc-grid": {"categorical"},
+    "ibc": {"negatives", "sampler"},
+    "da-ibc": {"negatives", "sampler"},
+    "ibc-langevin": {"negatives", "langevin_negatives", "sampler"},
+    "diffusion": {"denoiser", "diffusion"},
+    "flow": {"denoiser", "flow"},
+}
+_OF_ALL = {"method", "network", "density", "optimiser"}
+_SAMPLERS = {"dfo", "grid", "langevin"}
 
 
 def training_command(config: LearnerConfig, *, seed: int, data: Path) -> str:
-    """Find the shortest call of `mjdrive train` that has some settings.
+    """Find the shortest call of `mjdrive train` that has all settings which the method uses.
 
     Args:
         config: The settings.
@@ -29,10 +42,22 @@ def training_command(config: LearnerConfig, *, seed: int, data: Path) -> str:
     return shlex.join(words)
 
 
+def in_use(config: LearnerConfig) -> dict[str, str]:
+    """Settings that have an effect on the method, by dotted name, as --set reads them."""
+    sections = _OF_ALL | _SECTIONS[config.method]
+    idle = tuple(f"sampler.{kind}." for kind in _SAMPLERS - {config.sampler.kind})
+    flat = _flat(json.loads(serialization.to_json(config)))
+    return {
+        name: value
+        for name, value in flat.items()
+        if name.partition(".")[0] in sections and not name.startswith(idle)
+    }
+
+
 def _changes(preset: LearnerConfig, config: LearnerConfig) -> list[str]:
     """Settings that differ from a preset, as --set takes them."""
-    before, after = (_flat(json.loads(serialization.to_json(it))) for it in (preset, config))
-    return [f"{name}={after[name]}" for name in after if after[name] != before[name]]
+    before = _flat(json.loads(serialization.to_json(preset)))
+    return [f"{name}={value}" for name, value in in_use(config).items() if value != before[name]]
 
 
 def _flat(values: dict[str, Any], prefix: str = "") -> dict[str, str]:

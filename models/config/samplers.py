@@ -63,7 +63,7 @@ class GridConfig:
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class SamplerConfig:
-    """How energy models find an action of low energy; explicit policies look at `undo` and, where it is set, at `grid`.
+    """How energy models find an action of low energy; without effect on the other methods.
 
     Attributes:
         kind: Which sampler; the settings of the others lie idle.

@@ -4,6 +4,9 @@ from models.config.implicit import DensityConfig, NegativesConfig
 from models.config.samplers import Undo
 from models.errors import SettingError
 
+ENERGIES = ("ibc", "da-ibc", "ibc-langevin")
+"""Methods that remember the demonstrations, without which nothing can be undone."""
+
 
 def require_undoable(
     undo: Undo, *, method: str, negatives: NegativesConfig, density: DensityConfig
@@ -19,6 +22,11 @@ def require_undoable(
     Raises:
         SettingError: If the settings do not go together.
     """
+    if undo != "none" and method not in ENERGIES:
+        raise SettingError(
+            f"sampler.undo is '{undo}', but {method} does not remember the demonstrations to undo it by; expected one of "
+            f"{', '.join(ENERGIES)}. Set sampler.undo=none."
+        )
     if undo in {"negatives", "both"}:
         _require_known_density(undo, method, negatives)
     if undo in {"density", "both"} and density.weighting == "none":

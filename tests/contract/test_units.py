@@ -8,6 +8,7 @@ import typing
 
 import pytest
 
+import mjdrive.config.driving_env
 import mjdrive.config.mpc
 import mjdrive.config.settings
 import mjdrive.datatypes
@@ -17,7 +18,7 @@ import models.config
 
 UNITS = {
     "-", "m", "m/s", "m/s2", "m/s^2", "rad", "rad/s", "s", "px", "px/m", "kg", "N", "N/rad", "Hz", "nats",
-    "1/m", "1/min", "1/s", "m/s3", "rad/s2", "1/(m/s)", "1/(m/s2)", "1/rad", "1/(rad s)", "s/rad", "%",
+    "1/m", "1/min", "1/s", "m/s3", "rad/s2", "1/(m/s)", "1/(m/s2)", "1/rad", "1/(rad s)", "s/rad", "s3/m2", "%",
 }  # fmt: skip
 DIMENSIONLESS_COUNTS = {
     "seed",
@@ -41,6 +42,7 @@ def numeric_dataclasses() -> list[type]:
     modules = (
         mjdrive.datatypes.town,
         mjdrive.datatypes.driving,
+        mjdrive.config.driving_env,
         mjdrive.config.mpc,
         mjdrive.config.settings,
         models.config,

@@ -7,8 +7,6 @@ from models.errors import SettingError
 from models.presets import PRESETS, paper, preset
 from models.serialization import from_json, to_json
 
-METHODS = ("bc-beta", "ibc", "da-ibc")
-
 
 @pytest.mark.parametrize(
     ("kind", "name", "value"),
@@ -17,6 +15,14 @@ METHODS = ("bc-beta", "ibc", "da-ibc")
         (config.NetworkConfig, "speed_scale", 0.0),
         (config.BetaConfig, "label_clamp", 0.0),
         (config.BetaConfig, "entropy_bonus", -0.1),
+        (config.MixtureConfig, "components", 0),
+        (config.CategoricalConfig, "points", 1),
+        (config.CategoricalConfig, "smoothing", -0.1),
+        (config.CategoricalConfig, "temperature", 0.0),
+        (config.DenoiserConfig, "draws", 0),
+        (config.DenoiserConfig, "noise_floor", 0.0),
+        (config.DiffusionConfig, "steps", 0),
+        (config.FlowConfig, "steps", 0),
         (config.NegativesConfig, "count", 0),
         (config.NegativesConfig, "sigma", -1.0),
         (config.NegativesConfig, "uniform_share", 2.0),
@@ -62,7 +68,7 @@ def test_the_paper_preset_has_the_numbers_of_the_paper():
     assert (settings.beta.inference, settings.beta.beta_offset) == ("mode", 0)
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", config.METHODS)
 @pytest.mark.parametrize("name", PRESETS)
 def test_presets_survive_json(name, method):
     settings = preset(name, method)

@@ -3,7 +3,7 @@
 import pytest
 import torch
 
-from models import checkpoint
+from models import checkpoint, presets
 from models.config import METHODS
 from models.interfaces import Batch, Learner
 from models.learners import build_learner
@@ -54,6 +54,14 @@ def test_the_loss_of_parts_sums_to_that_of_the_whole(learner, batch, generator):
     assert torch.equal(whole, learner.loss(batch, chance, weights=weights))
 
 
+def test_the_loss_stays_in_single_precision_when_products_do_not(learner, batch, generator):
+    chance = learner.draw(batch.actions, generator=generator)
+    with torch.autocast("cpu", torch.bfloat16):
+        loss = learner.loss(batch, chance, weights=None)
+    assert loss.dtype == torch.float32
+    assert loss.bfloat16().float() != loss
+
+
 @pytest.mark.parametrize("label", [-1.0, 0.0, 1.0])
 def test_loss_and_gradient_are_finite_at_the_ends(learner, batch, label, generator):
     few = Batch(batch.bev[:2], batch.state[:2], torch.full((2, 2), label))
@@ -95,3 +103,21 @@ def test_its_first_weights_come_from_the_seed(learner):
     pairs = list(zip(*(it.parameters() for it in (first, same, other)), strict=True))
     assert all(torch.equal(a, b) for a, b, _ in pairs)
     assert not any(torch.equal(a, c) for a, _, c in pairs if a.dim() > 1)
+
+
+SIZES = {
+    "bc-beta": 1_391_204,
+    "bc-mixture": 1_396_601,
+    "bc-grid": 2_476_001,
+    "ibc": 1_390_945,
+    "da-ibc": 1_390_945,
+    "ibc-langevin": 1_390_945,
+    "diffusion": 1_327_202,
+    "flow": 1_327_202,
+}
+"""As docs/methods.md says."""
+
+
+def test_its_size_is_that_of_the_documentation(learner):
+    built = build_learner(presets.standard(learner.config.method), seed=0)
+    assert sum(it.numel() for it in built.parameters()) == SIZES[learner.config.method]

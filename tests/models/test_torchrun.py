@@ -11,6 +11,7 @@ import torch
 from safetensors.torch import load_file
 
 from models import training
+from models.config import METHODS
 from models.distributed import Team
 from models.learners import build_learner
 
@@ -163,7 +164,7 @@ def gradients_of_parts(config, demonstrations, rank, size):
         yield [torch.tensor(loss), *(gradient.clone() for gradient in run.state.gradients())]
 
 
-@pytest.mark.parametrize("method", ["bc-beta", "ibc", "da-ibc"])
+@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("precision", ["float32", "bfloat16"])
 def test_the_gradients_of_the_parts_sum_to_that_of_the_minibatch(
     method, precision, small_config, demonstrations, monkeypatch

@@ -146,7 +146,7 @@ def test_far_from_every_demonstration_all_stays_finite():
         ({"negatives": dataclasses.replace(PLAIN, sigma=0.0)}, "no density"),
         ({"method": "ibc"}, "uniform and tilt nothing"),
         ({"method": "ibc-langevin"}, "no negatives whose density is known; expected da-ibc"),
-        ({"method": "bc-beta"}, "no negatives whose density is known"),
+        ({"method": "bc-beta"}, "does not remember the demonstrations.*expected one of ibc"),
         ({"density": DensityConfig(weighting="none")}, "no weights tilted.*undo=negatives"),
     ],
 )
@@ -156,6 +156,15 @@ def test_what_cannot_be_undone_or_would_be_twice_is_refused(changes, reason):
         dataclasses.replace(good, **changes)
 
 
-def test_weights_can_be_undone_for_every_method():
-    for method in ("bc-beta", "ibc", "da-ibc", "ibc-langevin"):
+def test_weights_can_be_undone_for_every_energy():
+    for method in ("ibc", "da-ibc", "ibc-langevin"):
         dataclasses.replace(settings("density"), method=method)
+
+
+def test_weights_are_taken_out_of_any_density_as_out_of_an_energy(demonstrated, anywhere):
+    config = settings("density")
+    said = torch.zeros(2, 500)
+    found = undoing.without_weights(
+        said, anywhere, settings=config.density, demonstrated=demonstrated
+    )
+    torch.testing.assert_close(found, tilt_of(config, demonstrated, anywhere)[0])

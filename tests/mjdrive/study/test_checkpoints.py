@@ -1,13 +1,17 @@
 """Which epochs of a run are kept, and whose run a folder holds."""
 
+import dataclasses
 import json
 from pathlib import Path
 
 import pytest
 
 from mjdrive.config import Variant
+from mjdrive.errors import RunError
 from mjdrive.study import checkpoints
-from mjdrive.study.agents import Agent
+from mjdrive.study.agents import Agent, learner_config
+from models import serialization
+from models.config import METHODS
 
 
 def put(run: Path, epoch: int, *, epochs: int = 6, seed: int = 0, weights: str = "") -> Path:
@@ -68,6 +72,32 @@ def test_a_run_is_found_by_its_agent_or_its_method_if_the_seed_is_right(
     variant = Variant("bc-beta", "bc-beta")
     assert checkpoints.find_run(Agent(variant, 1), tmp_path) == tmp_path / name
     assert checkpoints.find_run(Agent(variant, 0), tmp_path) is None
+
+
+def test_only_settings_with_an_effect_on_the_method_tell_runs_apart(tmp_path: Path) -> None:
+    agent = Agent(Variant("bc-beta", "bc-beta"), 0)
+    planned = learner_config(agent.variant)
+    run = put(tmp_path / "run", 6)
+
+    def trained_with(**changes: object) -> None:
+        other = dataclasses.replace(planned, **changes)  # type: ignore[arg-type]
+        (run / "config.json").write_text(serialization.to_json(other))
+
+    trained_with(negatives=dataclasses.replace(planned.negatives, count=7))
+    checkpoints.require_planned(run, agent, planned)
+    trained_with(beta=dataclasses.replace(planned.beta, label_noise=0.5))
+    with pytest.raises(RunError, match=r"beta\.label_noise 0\.5 \(here 0\.05\)"):
+        checkpoints.require_planned(run, agent, planned)
+
+
+def test_every_method_says_which_settings_have_an_effect_on_it() -> None:
+    assert set(checkpoints.MATTERS) == set(METHODS)
+    for method in METHODS:
+        values = json.loads(serialization.to_json(learner_config(Variant(method, method))))
+        for name in (*checkpoints.MATTERS_TO_ALL, *checkpoints.MATTERS[method]):
+            place = values
+            for part in name.rstrip(".").split("."):
+                place = place[part]
 
 
 def test_a_run_that_is_not_finished_is_not_taken(tmp_path: Path) -> None:

@@ -82,8 +82,17 @@ def test_one_iteration_samples_the_softmax_of_the_start(generator):
     assert (actions[:, 1] > 0).float().mean().item() == pytest.approx(0.8, abs=0.03)
 
 
-def test_resampling_again_and_again_sharpens_a_fork(generator):
-    assert left_share(UNIFORM_START, 0.65, generator) > 0.8
+def test_resampling_again_and_again_sharpens_a_fork_about_as_its_fifth_power(generator):
+    config = dataclasses.replace(UNIFORM_START, num_samples=4096)
+    found = left_share(config, 0.65, generator, num_observations=100)
+    assert found == pytest.approx(0.65**5 / (0.65**5 + 0.35**5), abs=0.05)  # 0.957
+
+
+def test_the_lowest_candidate_lies_in_the_deeper_mode(generator):
+    config = dataclasses.replace(UNIFORM_START, choice="argmin")
+    start = uniform_start(100, config.num_samples, generator)
+    found = search(fork_energy(0.65), start, config, generator=generator).actions
+    assert (found[:, 1] > 0).float().mean() > 0.97
 
 
 def test_tempering_keeps_the_shares_of_a_fork(generator):

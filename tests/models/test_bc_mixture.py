@@ -1,0 +1,127 @@
+import dataclasses
+import math
+
+import pytest
+import torch
+from torch import nn
+from torch.distributions import Beta
+
+from models.bc_mixture import BcMixtureLearner, mixture_log_prob, mixture_mode
+from models.config import LearnerConfig
+from models.errors import SettingError
+
+# Two ways at a junction: to the left with 0.65, to the right with 0.35; acceleration and steering in [0, 1].
+SHARES = torch.tensor([0.65, 0.35])
+ALPHA = torch.tensor([[12.0, 30.0], [12.0, 10.0]])
+BETA = torch.tensor([[8.0, 10.0], [8.0, 30.0]])
+
+
+def known_mixture():
+    return SHARES.log()[None], Beta(ALPHA[None], BETA[None])
+
+
+class KnownJunction:
+    """The same density as a source of expert actions in [-1, 1], for `train_at_fork`."""
+
+    def __init__(self, fork):
+        self.fork = fork
+
+    def batch(self, num, generator):
+        which = (torch.rand(num, generator=generator) >= SHARES[0]).long()
+        torch.manual_seed(int(torch.randint(2**40, (), generator=generator)))
+        actions = 2 * Beta(ALPHA, BETA).sample((num,))[torch.arange(num), which] - 1
+        return self.fork.batch(num, generator)._replace(actions=actions)
+
+
+@pytest.fixture(scope="module")
+def trained(small_config, train_at_fork, fork):
+    config = small_config("bc-mixture")
+    config = dataclasses.replace(
+        config,
+        beta=dataclasses.replace(config.beta, label_noise=0.0),
+        mixture=dataclasses.replace(config.mixture, components=2),
+    )
+    return train_at_fork(config, KnownJunction(fork), steps=400, rate=0.02)
+
+
+def test_training_recovers_the_shares_and_moments_of_a_known_mixture(trained, fork):
+    log_weights, components = trained.mixture(*fork.unseen(1))
+    left = int(components.mean[0, :, 1].argmax())
+    order = [left, 1 - left]
+    torch.testing.assert_close(log_weights[0, order].exp(), SHARES, rtol=0, atol=0.04)
+    known = Beta(ALPHA, BETA)
+    torch.testing.assert_close(components.mean[0, order], known.mean, rtol=0, atol=0.02)
+    torch.testing.assert_close(components.stddev[0, order], known.stddev, rtol=0.15, atol=0)
+
+
+def test_samples_keep_both_sides_and_mode_and_mean_are_what_they_say(trained, fork, generator):
+    config = trained.config
+    found = {}
+    for inference in ("sample", "mode", "mean"):
+        trained.config = dataclasses.replace(
+            config, beta=dataclasses.replace(config.beta, inference=inference)
+        )
+        found[inference] = trained.act(*fork.unseen(3000), generator=generator)
+    trained.config = config
+    left = (found["sample"][:, 1] > 0).float().mean()
+    assert float(left) == pytest.approx(0.65, abs=0.05)
+    mean = 2 * (SHARES[:, None] * ALPHA / (ALPHA + BETA)).sum(dim=0) - 1
+    torch.testing.assert_close(found["mean"][0], mean, rtol=0, atol=0.05)
+    log_weights, components = known_mixture()
+    mode = 2 * mixture_mode(log_weights, components, 1e-3)[0] - 1
+    torch.testing.assert_close(found["mode"][0], mode, rtol=0, atol=0.05)
+
+
+def test_the_mode_is_where_the_mixture_is_densest():
+    log_weights, components = known_mixture()
+    axis = torch.linspace(0.005, 0.995, 199)
+    grid = torch.cartesian_prod(axis, axis)
+    densest = grid[mixture_log_prob(log_weights, components, grid[None])[0].argmax()]
+    mode = mixture_mode(log_weights, components, 1e-3)[0]
+    torch.testing.assert_close(mode, densest, rtol=0, atol=0.01)
+
+
+def test_the_density_integrates_to_one(trained, fork):
+    axis = torch.linspace(-1, 1, 129)[1:] - 1 / 128
+    cells = torch.cartesian_prod(axis, axis)[None]
+    mass = float(trained.log_density(*fork.unseen(1), cells).exp().sum()) * (2 / 128) ** 2
+    assert mass == pytest.approx(1, abs=1e-3)
+
+
+@pytest.mark.parametrize("beta_offset", [0, 1])
+@pytest.mark.parametrize("num", [1, 5, 12])
+def test_components_start_apart_with_the_concentration_that_they_are_to_have(
+    beta_offset, num, small_config, fork
+):
+    config = small_config("bc-mixture")
+    config = dataclasses.replace(
+        config,
+        beta=dataclasses.replace(config.beta, beta_offset=beta_offset),
+        mixture=dataclasses.replace(config.mixture, components=num),
+    )
+    torch.manual_seed(0)
+    learner = BcMixtureLearner(config)
+    learner.encoder = nn.Flatten()
+    learner.head = nn.Identity()
+    nothing = torch.zeros(1, 256)
+    learner.encoder.forward = lambda bev, state: nothing
+    _, components = learner.mixture(*fork.unseen(1))
+    distances = torch.cdist(components.mean[0], components.mean[0]) + torch.eye(num)
+    assert float(distances.min().detach()) > 0.1
+    assert torch.all(components.stddev < 0.25)
+
+
+def test_an_entropy_bonus_is_refused(small_config):
+    config = small_config("bc-mixture")
+    bonus = dataclasses.replace(config.beta, entropy_bonus=0.01)
+    with pytest.raises(SettingError, match=r"entropy_bonus is 0.01; expected 0 for bc-mixture"):
+        dataclasses.replace(config, beta=bonus)
+    assert LearnerConfig("bc-beta", beta=bonus).beta.entropy_bonus == 0.01
+
+
+def test_one_component_is_a_beta():
+    alpha, beta = torch.tensor([[[3.0, 5.0]]]), torch.tensor([[[2.0, 9.0]]])
+    unit = torch.tensor([[[0.3, 0.6]]])
+    found = mixture_log_prob(torch.zeros(1, 1), Beta(alpha, beta), unit)
+    assert float(found) == pytest.approx(float(Beta(alpha, beta).log_prob(unit).sum()))
+    assert math.isfinite(float(found))
