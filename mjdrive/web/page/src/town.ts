@@ -142,12 +142,12 @@ export class TownScene {
     const size = 64, alpha = new Uint8Array(4 * size * size);
     for (let row = 0; row < size; row++) for (let column = 0; column < size; column++) {
       const edge = Math.max(Math.abs(row / (size - 1) - 0.5), Math.abs(column / (size - 1) - 0.5)) * 2;
-      alpha[4 * (row * size + column) + 3] = 150 * Math.max(0, Math.min(1, (1 - edge) / 0.35));
+      alpha[4 * (row * size + column) + 3] = 120 * Math.max(0, Math.min(1, (1 - edge) / 0.35));
     }
     const map = new THREE.DataTexture(alpha, size, size);
     map.magFilter = THREE.LinearFilter;
     map.needsUpdate = true;
-    const quad = new THREE.Mesh(new THREE.PlaneGeometry(5.4, 2.5), new THREE.MeshBasicMaterial({ map, transparent: true, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -4 }));
+    const quad = new THREE.Mesh(new THREE.PlaneGeometry(5.0, 2.3), new THREE.MeshBasicMaterial({ map, transparent: true, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -4 }));
     quad.position.set(1.3, 0, 0.06);
     this.bodies[0]?.add(quad);
   }
