@@ -44,6 +44,7 @@ def panel_message(
         "yaw": round(vehicle.yaw, 4),
         "speed": round(vehicle.speed, 3),
         "action": [round(decision.action.acceleration, 4), round(decision.action.steering, 4)],
+        "driven": [round(simulation.action.acceleration, 4), round(simulation.action.steering, 4)],
         "by": "hand" if by_hand else session.mind.name,
     }
     blobs: dict[str, np.ndarray] = {

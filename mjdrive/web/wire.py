@@ -5,7 +5,8 @@ head says in "b" where: name -> [dtype, shape, offset from the end of the head].
 
     "pose"     50 times a second   t [s], speed [m/s], action [acceleration, steering], tick, seq (of the keys that are
                driven by), rate (simulated over real time); blob q: position [m] and quaternion of each body, (N, 7)
-    "panel"    each decision       tick, t, x, y [m], yaw [rad], action (of the policy), by (who drives); blobs bev: the
+    "panel"    each decision       tick, t, x, y [m], yaw [rad], action (of the policy), driven (the last one that
+               was taken), by (who drives); blobs bev: the
                five channels of the view, (5, S, S) uint8; lights: signal of each light; and where the policy can be
                asked: density: log of its density less the highest, over DEPTH nats, acceleration outermost, uint8, with
                low and high [nats] in the head; points: candidates of its sampler by iteration, int8 of 127

@@ -110,7 +110,7 @@ export class Live {
     this.landscape.show(message);
     this.map.setLights(blobs.lights);
     this.map.move(head.x, head.y, head.yaw);
-    this.charts.add([head.t, head.x, head.y, head.speed, ...head.action]);
+    this.charts.add([head.t, head.x, head.y, head.speed, ...head.driven]);
     for (const id of ["bev-tick", "energy-tick"]) say($(id), `tick ${head.tick}`);
     if (performance.now() - this.lastDrawn < DRAW_MS) return;
     this.lastDrawn = performance.now();
