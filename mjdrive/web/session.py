@@ -90,7 +90,7 @@ class Session:
         return is_new
 
     def reset(self) -> None:
-        """Start the drive again."""
+        """Start the drive again; what was driven by hand until now is no longer kept."""
         self.mind.begin(self.simulation, self.choice.seed)
         self.infractions.clear()
         self._rows: list[tuple[float, ...]] = []
@@ -103,20 +103,29 @@ class Session:
         observation = self.simulation.observe()
         return Decision(self._tick, observation, self.mind.decide(self.simulation, observation))
 
-    def step(self, action: Action, *, on_motion: Callable[[], None]) -> tuple[Infraction, ...]:
-        """Drive for one control interval; what is driven by hand is recorded.
+    def step(
+        self, action: Action, *, on_motion: Callable[[], None], by_hand: bool = False
+    ) -> tuple[Infraction, ...]:
+        """Drive for one control interval.
+
+        Args:
+            action: What to do.
+            on_motion: Called some fifty times a second of the simulation.
+            by_hand: Whether a person chose the action; only that is recorded.
 
         Raises:
             PhysicsError: If the physics has become unstable.
         """
         self._remember(action)
-        if self.recording is not None:
-            if self.recording.is_full:
-                self.keep_recording()
-            self.recording.before(action)
+        recording = self.recording if by_hand else None
+        if recording is not None and recording.is_full:
+            self.keep_recording()
+            recording = self.recording
+        if recording is not None:
+            recording.before(action)
         found = self.simulation.step(action, on_motion=on_motion)
-        if self.recording is not None:
-            self.recording.after(found)
+        if recording is not None:
+            recording.after(found)
         self._tick += 1
         self.infractions = [*self.infractions, *found][-MOST_INFRACTIONS:]
         return found

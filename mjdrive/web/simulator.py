@@ -212,13 +212,13 @@ class Simulator(threading.Thread):
     def _drive(self) -> None:
         assert self._decision is not None, "there is a decision before each step"
         interval = self.session.simulation.config.control_interval
-        action = self._decision.action
+        action, by_hand = self._decision.action, False
         if self._next is not None:
             action, self._next = self._next, None
         elif self.wheel.holder is not None:
-            action = self.wheel.action(interval)
+            action, by_hand = self.wheel.action(interval), True
         try:
-            found = self.session.step(action, on_motion=self._on_motion)
+            found = self.session.step(action, on_motion=self._on_motion, by_hand=by_hand)
         except MjdriveError as error:
             self._audience.note(f"{error} The drive starts again.", is_error=True)
             self.session.reset()

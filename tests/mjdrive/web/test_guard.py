@@ -39,13 +39,17 @@ def test_this_machine_is_let_in(host: str) -> None:
     assert socket_opens(client(), host=host, origin=f"http://{host}")
 
 
-@pytest.mark.parametrize("host", ["evil.example", "evil.example:8123", "127.0.0.1.evil.example", ""])
+@pytest.mark.parametrize(
+    "host", ["evil.example", "evil.example:8123", "127.0.0.1.evil.example", ""]
+)
 def test_a_name_that_was_rebound_to_this_machine_is_refused(host: str) -> None:
     assert client().get("/", headers={"host": host}).status_code == 403
     assert not socket_opens(client(), host=host, origin=f"http://{host}")
 
 
-@pytest.mark.parametrize("origin", ["https://evil.example", "null", "http://127.0.0.1:9999", "file://"])
+@pytest.mark.parametrize(
+    "origin", ["https://evil.example", "null", "http://127.0.0.1:9999", "file://"]
+)
 def test_pages_of_another_origin_are_refused(origin: str) -> None:
     assert client().get("/", headers={"origin": origin}).status_code == 403
     assert not socket_opens(client(), host="127.0.0.1:8123", origin=origin)

@@ -19,7 +19,9 @@ def test_unpacking_undoes_packing(rows: int, columns: int, name: str) -> None:
     }
     head, found = wire.unpack(wire.pack("pose", {"name": name}, blobs))
     assert head == {"v": wire.VERSION, "k": "pose", "name": name}
-    assert {key: it.dtype for key, it in found.items()} == {key: it.dtype for key, it in blobs.items()}
+    assert {key: it.dtype for key, it in found.items()} == {
+        key: it.dtype for key, it in blobs.items()
+    }
     for key, blob in blobs.items():
         np.testing.assert_array_equal(found[key], blob)
 
