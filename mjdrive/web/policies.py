@@ -1,7 +1,7 @@
 """Policies that a page can choose by name: what each decides, and what it thought of the alternatives."""
 
 from pathlib import Path
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 import torch
@@ -49,6 +49,7 @@ class Density(NamedTuple):
     high: float
 
 
+@runtime_checkable
 class Mind(Protocol):
     """A policy that can be watched."""
 

@@ -3,7 +3,7 @@
 import queue
 import threading
 import time
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 from mjdrive.datatypes import Action
 from mjdrive.errors import MjdriveError
@@ -23,6 +23,7 @@ IDLE = 0.1
 """How long a paused simulation waits for a command [s]."""
 
 
+@runtime_checkable
 class Audience(Protocol):
     """Whoever is told; callable from any thread."""
 

@@ -1,5 +1,7 @@
 """One holder at a time, and nothing stays pressed when the page falls silent."""
 
+from itertools import pairwise
+
 from mjdrive.web.wheel import LETS_GO_AFTER, Wheel
 
 INTERVAL = 0.1
@@ -42,7 +44,7 @@ def test_two_keys_are_held_at_once_and_reach_the_limits() -> None:
     actions = [wheel.action(INTERVAL) for _ in range(20)]
     assert actions[0].steering > 0 < actions[0].acceleration
     assert (actions[-1].acceleration, actions[-1].steering) == (1.0, 1.0)
-    assert all(a.steering <= b.steering for a, b in zip(actions, actions[1:], strict=False))
+    assert all(a.steering <= b.steering for a, b in pairwise(actions))
 
 
 def test_released_keys_centre_the_wheel() -> None:

@@ -51,7 +51,7 @@ export class ChartsPanel {
     }
     pen.stroke();
     pen.fillStyle = chart.color; pen.textAlign = "left"; pen.textBaseline = "top";
-    const value = Number.isFinite(last) ? ` ${last.toFixed(chart.unit ? 0 : 2)} ${chart.unit}` : "";
+    const value = Number.isFinite(last) ? ` ${last.toFixed(chart.unit ? 0 : 2).replace(/^-(0(\.0+)?)$/, "$1")} ${chart.unit}` : "";
     pen.fillText(chart.name + value, LEFT + 4, top + 2);
   }
 }

@@ -124,6 +124,7 @@ export class Live {
     } catch {
       $("gl").hidden = $("cameras").hidden = true;
       $("no-gl").hidden = false;
+      document.body.classList.add("flat");
       return null;
     }
   }
