@@ -12,6 +12,7 @@ from mjdrive.cli.car import car
 from mjdrive.cli.collect import collect
 from mjdrive.cli.drive import drive
 from mjdrive.cli.info import info
+from mjdrive.cli.serve import serve
 from mjdrive.cli.study import study
 from mjdrive.cli.towns import towns
 from mjdrive.cli.train import train
@@ -79,5 +80,5 @@ def main() -> None:
     """Run `mjdrive`."""
 
 
-for command in (collect, train, drive, view, study, tune, towns, car, bench, info):
+for command in (collect, train, drive, serve, view, study, tune, towns, car, bench, info):
     main.add_command(command)

@@ -30,6 +30,7 @@ class Pilot:
         name: How summaries call it.
         device: Where it acts.
         config: Settings of the network, with the number format that it acts in.
+        learner: The network itself, for those who want to look into it.
     """
 
     def __init__(
@@ -42,7 +43,7 @@ class Pilot:
         learner.config = dataclasses.replace(learner.config, sampler=sampler)
         self.name = name
         self.config = learner.config
-        self._learner = learner.to(self.device).eval()
+        self.learner = learner.to(self.device).eval()
         self._generator = torch.Generator(self.device)
 
     def reset(self, seed: int) -> None:
@@ -54,7 +55,7 @@ class Pilot:
         """Choose the action for the next control interval."""
         bev = torch.tensor(view.bev, device=self.device)[None]
         state = torch.tensor(view.state, device=self.device)[None]
-        chosen = self._learner.act(bev, state, generator=self._generator)
+        chosen = self.learner.act(bev, state, generator=self._generator)
         acceleration, steering = chosen[0].tolist()
         return Action(acceleration=acceleration, steering=steering)
 

@@ -1,0 +1,112 @@
+"""What a page can ask for over HTTP: lists, the scene, and episodes to replay."""
+
+from collections.abc import Awaitable, Callable
+from functools import lru_cache
+
+import anyio.to_thread
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response
+from starlette.routing import Route
+
+from mjdrive.datatypes import Episode
+from mjdrive.errors import MjdriveError
+from mjdrive.town import library
+from mjdrive.web import wire
+from mjdrive.web.browsing import Shelf
+from mjdrive.web.policies import policy_names
+from mjdrive.web.replaying import episode_message, view_at
+from mjdrive.web.simulator import Simulator
+
+BINARY = "application/octet-stream"
+Answer = Callable[[Request], Awaitable[Response]]
+
+
+class Api:
+    """Answers of the server besides the socket.
+
+    Args:
+        simulator: What is driven.
+        shelf: The folders that pages may look into.
+    """
+
+    def __init__(self, simulator: Simulator, shelf: Shelf) -> None:
+        self._simulator, self._shelf = simulator, shelf
+        self._episode = lru_cache(maxsize=2)(shelf.episode)
+
+    def routes(self) -> list[Route]:
+        """Say which address answers what; what changes anything must be posted."""
+        return [
+            Route("/api/catalogue", self.catalogue),
+            Route("/api/scene", self.scene),
+            Route("/api/episodes", _apart(self._shelf.episodes)),
+            Route("/api/runs", _apart(self._shelf.run_list)),
+            Route("/api/drives", _apart(self._shelf.drive_figures)),
+            Route("/api/episode", self.episode),
+            Route("/api/episode/view", self.view),
+            Route("/api/episode/delete", self.delete, methods=["POST"]),
+        ]
+
+    async def catalogue(self, request: Request) -> Response:
+        """Towns and policies that can be chosen."""
+        del request
+        names = policy_names(self._shelf.runs)
+        return JSONResponse({"v": wire.VERSION, "towns": library.town_names(), "policies": names})
+
+    async def scene(self, request: Request) -> Response:
+        """The town that is driven."""
+        session = self._simulator.session
+        tag = f'"{session.simulation.town.digest[:16]}-{wire.VERSION}"'
+        headers = {"etag": tag, "cache-control": "no-cache"}
+        if request.headers.get("if-none-match") == tag:
+            return Response(status_code=304, headers=headers)
+        return Response(session.scene, media_type=BINARY, headers=headers)
+
+    async def episode(self, request: Request) -> Response:
+        """One episode to replay."""
+        name = request.query_params.get("name", "")
+        return await _binary(lambda: episode_message(self._episode(name), name))
+
+    async def view(self, request: Request) -> Response:
+        """What the policy saw at one step of an episode."""
+        name, step = request.query_params.get("name", ""), request.query_params.get("step", "")
+        if not step.isdecimal():
+            return _refused("Expected step=N, a control step of the episode.")
+        return await _binary(lambda: _view(self._episode(name), int(step)))
+
+    async def delete(self, request: Request) -> Response:
+        """Delete one drive."""
+        try:
+            await anyio.to_thread.run_sync(self._shelf.delete, request.query_params.get("name", ""))
+        except MjdriveError as error:
+            return _refused(str(error))
+        self._episode.cache_clear()
+        return JSONResponse({"deleted": True})
+
+
+def _view(episode: Episode, step: int) -> bytes:
+    at = min(step, len(episode.time) - 1)
+    return wire.pack("view", {"step": at}, {"bev": view_at(episode, at)})
+
+
+def _apart(listing: Callable[[], list[dict[str, object]]]) -> Answer:
+    """Answer with a list that is made in another thread."""
+
+    async def answer(request: Request) -> Response:
+        del request
+        try:
+            return JSONResponse(await anyio.to_thread.run_sync(listing))
+        except MjdriveError as error:
+            return _refused(str(error))
+
+    return answer
+
+
+async def _binary(make: Callable[[], bytes]) -> Response:
+    try:
+        return Response(await anyio.to_thread.run_sync(make), media_type=BINARY)
+    except MjdriveError as error:
+        return _refused(str(error))
+
+
+def _refused(reason: str) -> Response:
+    return JSONResponse({"error": reason}, 400)
