@@ -9,7 +9,13 @@
 {"op": "speed", "factor": 2.0}              simulated over real time, LEAST_SPEED to MOST_SPEED
 {"op": "load", "town": "town01", "policy": "pid", "seed": 3}   any of the three
 {"op": "keep"}                              write what was driven by hand into the data set of human drives
+{"op": "drop"}                              forget it
+{"op": "control", "on": true}               ask for control, or take the question back; of the page in control: keep it, or hand over
+{"op": "watch"}                             tell me all that others know already
 {"op": "hidden", "on": true}                nobody looks: only poses, and few of them
+{"op": "slow", "on": true}                  the link is slow: send large blobs deflated
+
+`CONTROLS` are obeyed where they come from the page in control alone (see roles.py).
 """
 
 import json
@@ -24,6 +30,11 @@ LEAST_SPEED, MOST_SPEED = 0.25, 8.0
 KEYS = frozenset({"up", "down", "left", "right", "brake"})
 MOST_SEED = 2**32 - 1
 
+CONTROLS = frozenset(
+    {"wheel", "pause", "step", "reset", "force", "speed", "load", "keep", "drop"}
+)
+"""What changes the drive for all who watch."""
+
 _FIELDS: dict[str, dict[str, type]] = {
     "ack": {"n": int},
     "keys": {"down": list, "seq": int},
@@ -36,8 +47,11 @@ _FIELDS: dict[str, dict[str, type]] = {
     "speed": {"factor": float},
     "load": {"town": str, "policy": str, "seed": int},
     "keep": {},
+    "drop": {},
+    "control": {"on": bool},
     "watch": {},
     "hidden": {"on": bool},
+    "slow": {"on": bool},
 }
 
 

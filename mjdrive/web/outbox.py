@@ -9,6 +9,9 @@ from collections.abc import Awaitable, Callable
 WINDOW = 6
 """Messages that a page may have unacknowledged [-]."""
 
+MOST_TEXTS = 32
+"""That wait; the oldest are forgotten [-]."""
+
 Send = Callable[[bytes], Awaitable[None]]
 SendText = Callable[[str], Awaitable[None]]
 
@@ -25,6 +28,8 @@ class Outbox:
         acknowledged: Of these, how many the page has handled [-].
         dropped: Messages that newer ones of their kind took the place of [-].
         hidden: Whether nobody looks at the page.
+        slow: Whether its link is slow.
+        number: How people call the page; 0 before it has one [-].
     """
 
     def __init__(self, send: Send, send_text: SendText) -> None:
@@ -33,7 +38,8 @@ class Outbox:
         self._texts: dict[str, str] = {}
         self._ready = asyncio.Event()
         self.sent = self.acknowledged = self.dropped = 0
-        self.hidden = False
+        self.hidden = self.slow = False
+        self.number = 0
 
     def put(self, kind: str, message: bytes) -> None:
         """Let a message wait; an older one of its kind is forgotten."""
@@ -44,6 +50,8 @@ class Outbox:
     def put_text(self, kind: str, message: str) -> None:
         """Let a text message wait; those are few, and go first."""
         self._texts[kind] = message
+        if len(self._texts) > MOST_TEXTS:
+            del self._texts[next(iter(self._texts))]
         self._ready.set()
 
     def acknowledge(self, count: int) -> None:

@@ -6,6 +6,9 @@ from collections.abc import Callable
 MOST_BEHIND = 0.2
 """Further than this behind, the lost time is given up [s]."""
 
+ENOUGH = 0.95
+"""Of the rate that is asked for; below it, the simulation is late [-]."""
+
 FORGETTING = 0.98
 """Of the measured rate, at each beat [-]."""
 
@@ -52,5 +55,5 @@ class Pace:
 
     @property
     def is_late(self) -> bool:
-        """Whether the simulation does not keep up."""
-        return self._clock() > self._due + 0.5 * MOST_BEHIND
+        """Whether the simulation does not keep up, so that what can be left out should be."""
+        return self.rate < ENOUGH * self.factor
