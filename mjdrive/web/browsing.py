@@ -3,6 +3,7 @@
 import dataclasses
 import json
 from collections.abc import Iterator
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ from mjdrive.datatypes import Episode
 from mjdrive.episodes import store
 from mjdrive.errors import DataError, MjdriveError, UnknownNameError
 from mjdrive.evaluation import report
-from mjdrive.learning import runs as run_folders
+from mjdrive.web.policies import run_names
 from models import checkpoint
 from models.errors import ModelsError
 
@@ -36,8 +37,9 @@ class Shelf:
 
     def episodes(self) -> list[dict[str, Any]]:
         """List the episodes that can be replayed, the newest first."""
-        found = sorted(self._paths().items(), key=lambda it: -it[1].stat().st_mtime)[:MOST_LISTED]
-        return [self._described(name, path) for name, path in found]
+        ages = [(_age(path), name, path) for name, path in self._paths().items()]
+        found = sorted((it for it in ages if it[0]), reverse=True)[:MOST_LISTED]
+        return [_described(name, path, age) for age, name, path in found]
 
     def episode(self, name: str) -> Episode:
         """Read one episode by its name in the list; paths are not names.
@@ -67,13 +69,12 @@ class Shelf:
 
     def run_list(self) -> list[dict[str, Any]]:
         """List the training runs with their losses by epoch."""
-        folders = (it for it in self.runs.glob("[!.]*") if run_folders.is_run(it))
-        return [_run(it) for it in sorted(folders)]
+        return [_run(self.runs / name) for name in run_names(self.runs)]
 
     def drive_figures(self) -> list[dict[str, Any]]:
         """Figures of all drives, for the table that compares policies."""
         found = sorted(self.drives.glob(f"**/{report.SUMMARY}"))[-MOST_LISTED:]
-        return [json.loads(path.read_text()) for path in found]
+        return [it for it in map(_figures, found) if it is not None]
 
     def _path(self, name: str) -> Path:
         paths = self._paths()
@@ -88,12 +89,6 @@ class Shelf:
             for path in _whole_files(root)
         }
 
-    def _described(self, name: str, path: Path) -> dict[str, Any]:
-        try:
-            return {"name": name, **_about(store.read(path))}
-        except MjdriveError as error:
-            return {"name": name, "error": str(error)}
-
 
 def _whole_files(root: Path) -> Iterator[Path]:
     """Episode files in a folder that links do not lead out of."""
@@ -101,6 +96,33 @@ def _whole_files(root: Path) -> Iterator[Path]:
     for path in root.glob("**/*.hdf5"):
         if path.resolve().is_relative_to(whole) and not path.name.startswith("."):
             yield path
+
+
+def _age(path: Path) -> int:
+    """When a file was written [ns]; 0 if it is there no longer."""
+    try:
+        return path.stat().st_mtime_ns
+    except OSError:
+        return 0
+
+
+@lru_cache(maxsize=2 * MOST_LISTED)
+def _described(name: str, path: Path, age: int) -> dict[str, Any]:
+    """A row of the list; a file that has not changed is not read again."""
+    del age
+    try:
+        return {"name": name, **_about(store.read(path))}
+    except MjdriveError as error:
+        return {"name": name, "error": str(error)}
+
+
+def _figures(path: Path) -> dict[str, Any] | None:
+    """The summary of a drive; None if it has been deleted or damaged since."""
+    try:
+        found = json.loads(path.read_text())
+    except (OSError, ValueError):
+        return None
+    return found if isinstance(found, dict) else None
 
 
 def _about(episode: Episode) -> dict[str, Any]:

@@ -30,9 +30,7 @@ LEAST_SPEED, MOST_SPEED = 0.25, 8.0
 KEYS = frozenset({"up", "down", "left", "right", "brake"})
 MOST_SEED = 2**32 - 1
 
-CONTROLS = frozenset(
-    {"wheel", "pause", "step", "reset", "force", "speed", "load", "keep", "drop"}
-)
+CONTROLS = frozenset({"wheel", "pause", "step", "reset", "force", "speed", "load", "keep", "drop"})
 """What changes the drive for all who watch."""
 
 _FIELDS: dict[str, dict[str, type]] = {

@@ -193,10 +193,18 @@ def policy_names(folder: Path) -> tuple[str, ...]:
     Args:
         folder: Of run folders.
     """
-    trained = sorted(
-        it.name for it in folder.glob("*") if runs.is_run(it) and not it.name.startswith(".")
-    )
-    return (*trained, *entries.full_names(), *experts.NAMES)
+    return (*run_names(folder), *entries.full_names(), *experts.NAMES)
+
+
+def run_names(folder: Path) -> tuple[str, ...]:
+    """List the training runs in a folder that links do not lead out of.
+
+    Args:
+        folder: Of run folders.
+    """
+    home = folder.resolve()
+    found = (it for it in folder.glob("[!.]*") if it.resolve().parent == home and runs.is_run(it))
+    return tuple(sorted(it.name for it in found))
 
 
 def load_mind(name: str, folder: Path) -> Mind:

@@ -1,6 +1,8 @@
 """What a person drives, as demonstrations: a data set like those of `mjdrive collect`, told apart by its source."""
 
 import dataclasses
+import shutil
+from itertools import chain, count
 from pathlib import Path
 from typing import NamedTuple
 
@@ -23,6 +25,10 @@ LEAST_STEPS = 10
 
 MOST_STEPS = 36_000
 """Of one drive; then a new one begins, so that a page left open does not fill the memory: one hour [-]."""
+
+
+LEAST_FREE = 500_000_000
+"""Of the disk, for somebody to begin to record [bytes]."""
 
 
 class Row(NamedTuple):
@@ -63,6 +69,11 @@ class Recording:
         self._infractions += infractions
 
     @property
+    def is_worth_keeping(self) -> bool:
+        """Whether it is more than a touch of the wheel."""
+        return len(self._rows) >= LEAST_STEPS
+
+    @property
     def is_full(self) -> bool:
         """Whether a new one should begin."""
         return len(self._rows) >= MOST_STEPS
@@ -73,7 +84,7 @@ class Recording:
         Raises:
             DataError: If hardly anything was driven.
         """
-        if len(self._rows) < LEAST_STEPS:
+        if not self.is_worth_keeping:
             raise DataError(
                 f"{len(self._rows)} steps were driven by hand; expected at least {LEAST_STEPS} to keep. Take the wheel "
                 f"and drive."
@@ -102,12 +113,31 @@ class Recording:
         )
 
 
+def require_room(folder: Path) -> None:
+    """Refuse to record where the disk is nearly full.
+
+    Args:
+        folder: Of data sets; it need not be there yet.
+
+    Raises:
+        DataError: If less than `LEAST_FREE` is free.
+    """
+    there = next(it for it in (folder.absolute(), *folder.absolute().parents) if it.is_dir())
+    free = shutil.disk_usage(there).free
+    if free < LEAST_FREE:
+        raise DataError(
+            f"{free / 1e6:.0f} MB are free where '{folder}' is; expected {LEAST_FREE / 1e6:.0f} MB to record what you "
+            f"drive. Make room, or start `mjdrive serve` with another --data."
+        )
+
+
 def keep(episode: Episode, folder: Path, *, town: Town, car: CarModel) -> Path:
-    """Add a drive to a data set of drives by hand.
+    """Add a drive to a data set of drives by hand; nothing that is there is written over.
 
     Args:
         episode: The drive.
-        folder: The data set; it is made if it is not there.
+        folder: The data set; it is made if it is not there. Where it holds something else, such as drives of another
+            version of the town, it is "<folder>-2" or the next one that does not.
         town: Where it was driven.
         car: What was driven.
 
@@ -115,23 +145,40 @@ def keep(episode: Episode, folder: Path, *, town: Town, car: CarModel) -> Path:
         The file.
 
     Raises:
-        DataError: If the folder holds another kind of data set, or one of another town, car or version of these.
+        DataError: If it cannot be written.
     """
-    manifest = _manifest(folder, town, car)
-    number = len(manifest.episodes)
-    name = f"human-{number:04d}"
-    content = store.to_bytes(episode)
-    entry = dataset.describe(episode, name=name, file=f"{name}.hdf5", content=content)
-    folder.mkdir(parents=True, exist_ok=True)
-    write_atomically(folder / entry.file, content)
-    entries = (*manifest.episodes, entry)
-    grown = dataclasses.replace(manifest, episodes=entries, num_planned=len(entries))
-    dataset.write_manifest(grown, folder)
-    return folder / entry.file
+    try:
+        folder, manifest = _place(folder, town, car)
+        number = next(it for it in count(len(manifest.episodes)) if not _file(folder, it).exists())
+        path = _file(folder, number)
+        content = store.to_bytes(episode)
+        entry = dataset.describe(episode, name=path.stem, file=path.name, content=content)
+        folder.mkdir(parents=True, exist_ok=True)
+        write_atomically(path, content)
+        entries = (*manifest.episodes, entry)
+        grown = dataclasses.replace(manifest, episodes=entries, num_planned=len(entries))
+        dataset.write_manifest(grown, folder)
+    except OSError as error:
+        raise DataError(
+            f"What you drove cannot be written to '{folder}': {error.strerror or error}. It is still in memory: mend that and "
+            f"keep it again, or drop it."
+        ) from error
+    return path
 
 
-def _manifest(folder: Path, town: Town, car: CarModel) -> Manifest:
-    """The description of the data set that is there, or of a new one."""
+def _file(folder: Path, number: int) -> Path:
+    return folder / f"human-{number:04d}.hdf5"
+
+
+def _place(folder: Path, town: Town, car: CarModel) -> tuple[Path, Manifest]:
+    """The first folder that is free or holds such drives, and its description."""
+    others = (folder.with_name(f"{folder.name}-{number}") for number in count(2))
+    places = ((place, _manifest(place, town, car)) for place in chain([folder], others))
+    return next((place, found) for place, found in places if found is not None)
+
+
+def _manifest(folder: Path, town: Town, car: CarModel) -> Manifest | None:
+    """The description of the data set that is there, or of a new one; None if it is another kind."""
     if not (folder / dataset.MANIFEST).is_file():
         return Manifest(
             town=town.name,
@@ -143,11 +190,9 @@ def _manifest(folder: Path, town: Town, car: CarModel) -> Manifest:
             car=car.name,
             car_digest=car.digest,
         )
-    manifest = dataset.read_manifest(folder)
+    try:
+        manifest = dataset.read_manifest(folder)
+    except DataError:
+        return None  # damaged, or of another version: nothing of ours to add to
     same = (manifest.town_digest, manifest.car_digest) == (town.digest, car.digest)
-    if manifest.settings.get(SOURCE) != HUMAN or not same:
-        raise DataError(
-            f"'{folder}' holds other demonstrations than drives by hand of {car.name} in {town.name} as they are now. "
-            f"Move it away, or start `mjdrive serve` with another --data."
-        )
-    return manifest
+    return manifest if manifest.settings.get(SOURCE) == HUMAN and same else None

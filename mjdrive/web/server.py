@@ -6,6 +6,8 @@ from collections.abc import AsyncIterator
 from pathlib import Path
 
 from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response
 from starlette.routing import Mount, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp
@@ -15,7 +17,7 @@ from mjdrive.errors import RenderError
 from mjdrive.web import wire
 from mjdrive.web.api import Api
 from mjdrive.web.browsing import Shelf
-from mjdrive.web.commands import Command, CommandError, parse
+from mjdrive.web.commands import CommandError, parse
 from mjdrive.web.guard import Access, Guard
 from mjdrive.web.hub import Hub
 from mjdrive.web.outbox import Outbox
@@ -26,8 +28,13 @@ PAGE = Path(__file__).parent / "static"
 """The built page; `npm run build` makes it of the sources in page/."""
 
 MOST_PAGES = 8
+
+MOST_SILENCE = 90.0
+"""A page that acknowledges nothing for so long is frozen or gone, and takes up a place [s]."""
+
 TRY_LATER = 1013
 NOT_UNDERSTOOD = 1003
+GOING_AWAY = 1001
 
 
 def make_app(session: Session, *, shelf: Shelf, access: Access, page: Path = PAGE) -> ASGIApp:
@@ -54,7 +61,9 @@ def make_app(session: Session, *, shelf: Shelf, access: Access, page: Path = PAG
         del app
         hub.attach(asyncio.get_running_loop())
         simulator.start()
+        heart = asyncio.create_task(hub.beat())
         yield
+        heart.cancel()
         await asyncio.to_thread(simulator.stop)
 
     async def socket(websocket: WebSocket) -> None:
@@ -67,8 +76,15 @@ def make_app(session: Session, *, shelf: Shelf, access: Access, page: Path = PAG
             Mount("/", StaticFiles(directory=page, html=True)),
         ],
         lifespan=lifespan,
+        exception_handlers={Exception: _failed},
     )
     return Guard(app, access)
+
+
+async def _failed(request: Request, error: Exception) -> Response:
+    """Say in the page that something of ours has failed; the traceback is in the terminal."""
+    words = f"{request.url.path} failed: {type(error).__name__}: {error}. The terminal tells more."
+    return JSONResponse({"error": words}, 500)
 
 
 async def _serve(websocket: WebSocket, hub: Hub, simulator: Simulator) -> None:
@@ -80,10 +96,15 @@ async def _serve(websocket: WebSocket, hub: Hub, simulator: Simulator) -> None:
     outbox = Outbox(websocket.send_bytes, websocket.send_text)
     hub.add(outbox)
     pump = asyncio.create_task(outbox.pump())
-    simulator.ask(Command("watch"), outbox)
+    simulator.inbox.come(outbox)
     try:
         while True:
-            _hear(await websocket.receive_text(), outbox, simulator)
+            message = await asyncio.wait_for(websocket.receive_text(), MOST_SILENCE)
+            _hear(message, outbox, simulator)
+    except TimeoutError:
+        with contextlib.suppress(RuntimeError):  # it has gone
+            reason = f"The page said nothing for {MOST_SILENCE:.0f} s."
+            await websocket.close(GOING_AWAY, reason)
     except CommandError as error:
         with contextlib.suppress(RuntimeError):  # it has gone
             await websocket.send_text(wire.text("note", {"line": str(error), "error": True}))
@@ -92,8 +113,9 @@ async def _serve(websocket: WebSocket, hub: Hub, simulator: Simulator) -> None:
         pass
     finally:
         hub.remove(outbox)
+        simulator.inbox.leave(outbox)
         pump.cancel()
-        simulator.leave(outbox)
+        await asyncio.gather(pump, return_exceptions=True)  # it may have met the end before us
 
 
 def _hear(message: str, outbox: Outbox, simulator: Simulator) -> None:
@@ -107,6 +129,8 @@ def _hear(message: str, outbox: Outbox, simulator: Simulator) -> None:
         outbox.acknowledge(command.values["n"])
     elif command.op == "hidden":
         outbox.hidden = command.values["on"]
-    elif not simulator.ask(command, outbox):
+    elif command.op == "slow":
+        outbox.slow = command.values["on"]
+    elif not simulator.inbox.put(command, outbox):
         busy = {"line": "The simulator is busy; that was not heard.", "error": True}
         outbox.put_text("busy", wire.text("note", busy))

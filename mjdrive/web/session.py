@@ -11,7 +11,7 @@ from mjdrive.datatypes import Action, Infraction, Observation
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import library
 from mjdrive.web.policies import Mind, load_mind
-from mjdrive.web.recording import Recording, keep
+from mjdrive.web.recording import Recording, keep, require_room
 from mjdrive.web.scene import scene_message
 
 MOST_ROWS = 36_000
@@ -43,12 +43,12 @@ class Decision:
     Attributes:
         tick: Control steps since reset [-].
         observation: What it sees.
-        action: What it would do.
+        action: What it would do; None if it was not asked, or has failed while a person drives.
     """
 
     tick: int
     observation: Observation
-    action: Action
+    action: Action | None
 
 
 @dataclass
@@ -75,11 +75,12 @@ class Session:
         self.reset()
 
     def load(self, choice: Choice) -> bool:
-        """Drive something else; whether the scene is another one.
+        """Drive something else; whether the scene is another one. What was driven by hand is kept first.
 
         Raises:
-            MjdriveError: If there is no such thing; then all stays as it was.
+            MjdriveError: If there is no such thing, or what was driven cannot be kept; then all stays as it was.
         """
+        self.keep_what_is_left()
         simulation, mind = self._loaded(choice)
         mind.begin(simulation, choice.seed)
         is_new = simulation is not self.simulation
@@ -90,13 +91,21 @@ class Session:
         return is_new
 
     def reset(self) -> None:
-        """Start the drive again; what was driven by hand until now is no longer kept."""
+        """Start the drive again; what was driven by hand until now is kept first.
+
+        Raises:
+            DataError: If it cannot be kept; then the drive goes on.
+        """
+        self.keep_what_is_left()
         self.mind.begin(self.simulation, self.choice.seed)
         self.infractions.clear()
         self._rows: list[tuple[float, ...]] = []
         self._tick = 0
-        if self.recording is not None:
-            self.recording = Recording(self.simulation, self.choice.seed)
+        self.drop_recording()
+
+    def look(self) -> Decision:
+        """Look alone, where the policy cannot be asked."""
+        return Decision(self._tick, self.simulation.observe(), None)
 
     def decide(self) -> Decision:
         """Let the policy look and choose."""
@@ -131,21 +140,41 @@ class Session:
         return found
 
     def begin_recording(self) -> None:
-        """Record from now on: a person has taken the wheel."""
+        """Record from now on: a person has taken the wheel.
+
+        Raises:
+            DataError: If the disk is full, or what was driven before cannot be kept.
+        """
+        require_room(self.data)
+        self.keep_what_is_left()
         self.recording = Recording(self.simulation, self.choice.seed)
 
     def keep_recording(self) -> Path:
         """Write what was recorded into the data set of drives by hand, and begin anew.
 
         Raises:
-            DataError: If hardly anything was driven, or the folder holds something else.
+            DataError: If hardly anything was driven, or it cannot be written; then it is still there.
         """
         assert self.recording is not None, "nobody has driven"
         town, car = self.simulation.town, self.simulation.car_model
         folder = self.data / f"human-{town.name}"
         path = keep(self.recording.episode(), folder, town=town, car=car)
-        self.recording = Recording(self.simulation, self.choice.seed)
+        self.drop_recording()
         return path
+
+    def keep_what_is_left(self) -> None:
+        """Keep what was driven by hand, if it is worth it, before it would be lost.
+
+        Raises:
+            DataError: If it cannot be written; then it is still there.
+        """
+        if self.recording is not None and self.recording.is_worth_keeping:
+            self.on_progress(f"What you drove by hand is kept as {self.keep_recording()}")
+
+    def drop_recording(self) -> None:
+        """Forget what was recorded, and begin anew."""
+        if self.recording is not None:
+            self.recording = Recording(self.simulation, self.choice.seed)
 
     @property
     def rows(self) -> Float[np.ndarray, "T 6"]:

@@ -1,44 +1,23 @@
-"""The thread that owns the simulation: it obeys pages, drives, and tells them what happens."""
+"""The thread that owns the simulation: it obeys pages and drives.
 
-import queue
+Whatever fails, a policy, a disk or the physics, must not end it: the drive stops, the pages say why, and people go on from there.
+"""
+
+import logging
 import threading
-import time
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
 
 from mjdrive.datatypes import Action
 from mjdrive.errors import MjdriveError
+from mjdrive.web.cockpit import Cockpit
 from mjdrive.web.commands import Command
+from mjdrive.web.inbox import Inbox
+from mjdrive.web.narrator import Audience
 from mjdrive.web.pace import Pace
-from mjdrive.web.session import Choice, Decision, Session
-from mjdrive.web.telling import history_message, panel_message, pose_message, state_values
-from mjdrive.web.wheel import Wheel
+from mjdrive.web.roles import ANSWERS_WITHIN
+from mjdrive.web.session import Choice, Session
 
-MOST_COMMANDS = 64
-"""That wait to be obeyed; more are refused [-]."""
-
-POSE_INTERVAL = 1.0 / 60.0
-"""Shortest time between two poses [s]."""
-
-IDLE = 0.1
-"""How long a paused simulation waits for a command [s]."""
-
-
-@runtime_checkable
-class Audience(Protocol):
-    """Whoever is told; callable from any thread."""
-
-    def tell(self, kind: str, message: bytes) -> None:
-        """Send a binary message to all."""
-
-    def tell_state(self, values: dict[str, Any], holder: object | None) -> None:
-        """Send to all what is chosen, and to each who drives."""
-
-    def note(self, line: str, *, is_error: bool = False) -> None:
-        """Send all a line for people."""
-
-    @property
-    def is_watching(self) -> bool:
-        """Whether anybody looks."""
+LOG = logging.getLogger(__name__)
 
 
 class Simulator(threading.Thread):
@@ -47,107 +26,127 @@ class Simulator(threading.Thread):
     Args:
         session: What is driven; from now on this thread's own.
         audience: Who is told.
+        pace: Keeps it in step with the clock.
 
     Attributes:
-        wheel: The wheel that pages take.
-        is_paused: Whether it waits.
+        session: What is driven.
+        inbox: What pages say, and who they are.
+        cockpit: How it is driven.
     """
 
-    def __init__(self, session: Session, audience: Audience) -> None:
+    def __init__(self, session: Session, audience: Audience, pace: Pace | None = None) -> None:
         super().__init__(name="simulator", daemon=True)
         self.session = session
-        self.wheel = Wheel()
-        self.is_paused = False
+        self.inbox = Inbox()
+        self.cockpit = Cockpit(session, audience, self.inbox, pace or Pace())
         self._audience = audience
-        self._commands: queue.Queue[tuple[Command, object]] = queue.Queue(MOST_COMMANDS)
-        self._pace = Pace()
-        self._decision: Decision | None = None
-        self._next: Action | None = None  # what a page forces
-        self._steps_left = 0
-        self._last_pose = 0.0
         self._is_ended = threading.Event()
-        self._is_left = threading.Event()
-        session.on_progress = audience.note
-
-    def ask(self, command: Command, who: object) -> bool:
-        """Let a command wait to be obeyed; whether there was room. Keys are heard at once."""
-        values = command.values
-        if command.op == "keys":
-            self.wheel.say(who, keys=values["down"], seq=values["seq"])
-        elif command.op == "steer":
-            analog = values["acceleration"], values["steering"]
-            self.wheel.say(who, analog=analog, seq=values["seq"])
-        else:
-            try:
-                self._commands.put_nowait((command, who))
-            except queue.Full:
-                return False
-        return True
-
-    def leave(self, who: object) -> None:
-        """A page has gone: let go of the wheel if it held it, however full the queue is."""
-        if self.wheel.give_back(who):
-            self._is_left.set()
+        self._tell_terminal, session.on_progress = session.on_progress, audience.note
 
     def stop(self) -> None:
-        """End the thread, and wait until it has."""
+        """End the thread, wait until it has, and keep what was driven by hand."""
         self._is_ended.set()
         self.join()
+        self.session.on_progress = self._tell_terminal  # the pages have gone
+        try:
+            self.session.keep_what_is_left()
+        except MjdriveError as error:
+            LOG.error("What was driven by hand is lost: %s", error)
 
     def run(self) -> None:
-        """Obey, decide, drive."""
-        self._announce()
+        """Obey and drive."""
         while not self._is_ended.is_set():
-            if self._is_left.is_set():
-                self._is_left.clear()
-                self._let_policy_drive()
-            self._obey_all(wait=self.is_paused and not self._steps_left)
-            if self._decision is None:
-                self._decide()
-            if not self.is_paused or self._steps_left:
-                self._drive()
+            self.turn()
 
-    def _obey_all(self, *, wait: bool) -> None:
+    def turn(self) -> None:
+        """Obey what pages have said, and drive one step unless that is paused."""
         try:
-            while True:
-                command, who = (
-                    self._commands.get(timeout=IDLE) if wait else self._commands.get_nowait()
-                )
-                wait = False
-                self._obey(command, who)
-        except queue.Empty:
-            return
+            self._hear()
+            self.cockpit.turn()
+        except Exception as error:  # told to all pages
+            self.cockpit.stop_short(error)
 
-    def _obey(self, command: Command, who: object) -> None:
+    def _hear(self) -> None:
+        for who, is_here in self.inbox.arrivals():
+            self._meet(who) if is_here else self._part(who)
+        if self.inbox.roles.is_unanswered:
+            self._pass_control(f"Nobody answered for {ANSWERS_WITHIN:.0f} s.")
+        for command, who in self.inbox.commands(wait=self.cockpit.is_waiting):
+            self._obey(command, who)
+
+    def _meet(self, who: object) -> None:
+        self.inbox.roles.come(who)
+        self.cockpit.tell_all()
+
+    def _part(self, who: object) -> None:
+        was_operator = who is self.inbox.roles.operator
+        self.inbox.roles.leave(who)
+        if was_operator:
+            self._release(who)
+        self.cockpit.announce()
+
+    def _release(self, who: object) -> None:
+        """Take the wheel from them, and keep what they drove: it is not for others to drop."""
+        is_driver = self.inbox.wheel.give_back(who)
         try:
-            getattr(self, f"_on_{command.op}")(who, **command.values)
+            self.session.keep_what_is_left()
         except MjdriveError as error:
             self._audience.note(str(error), is_error=True)
-        self._announce()
+        if is_driver:
+            self.cockpit.let_policy_drive()
+
+    def _pass_control(self, why: str) -> None:
+        roles = self.inbox.roles
+        before = roles.operator
+        roles.hand_over()
+        if before is not roles.operator:
+            self._release(before)
+            self._audience.note(f"{why} You are in control now.", to=roles.operator)
+            self._audience.note(f"{why} Another page is in control now.", to=before)
+
+    def _obey(self, command: Command, who: object) -> None:
+        if self.inbox.may(command, who):
+            try:
+                getattr(self, f"_on_{command.op}")(who, **command.values)
+            except MjdriveError as error:
+                self._audience.note(str(error), is_error=True)
+        else:
+            words = "Another page is in control; ask for control to change the drive."
+            self._audience.note(words, is_error=True, to=who)
+        self.cockpit.announce()
+
+    def _on_control(self, who: object, *, on: bool) -> None:
+        roles = self.inbox.roles
+        if who is not roles.operator:
+            roles.ask(who) if on else roles.take_back(who)
+        elif on:
+            for page in roles.asking:
+                self._audience.note("The page in control keeps it.", to=page)
+            roles.ask(who)
+        else:
+            self._pass_control("The page in control has handed over.")
 
     def _on_pause(self, who: object, *, on: bool) -> None:
         del who
-        self.is_paused = on
-        self._pace.restart()
+        self.cockpit.pause(on=on)
 
     def _on_step(self, who: object) -> None:
-        self._on_pause(who, on=True)
-        self._steps_left = 1
+        del who
+        self.cockpit.step()
 
     def _on_force(self, who: object, *, acceleration: float, steering: float) -> None:
-        if self.is_paused:
-            self._next = Action(acceleration=acceleration, steering=steering)
-            self._on_step(who)
+        del who
+        if self.cockpit.is_paused:
+            self.cockpit.step(Action(acceleration=acceleration, steering=steering))
 
     def _on_speed(self, who: object, *, factor: float) -> None:
         del who
-        self._pace.factor = factor
-        self._pace.restart()
+        self.cockpit.set_speed(factor)
 
     def _on_reset(self, who: object) -> None:
         del who
         self.session.reset()
-        self._begin_anew()
+        self.cockpit.begin_anew()
 
     def _on_load(self, who: object, **wanted: Any) -> None:
         del who
@@ -155,88 +154,29 @@ class Simulator(threading.Thread):
         kept = {"town": before.town, "policy": before.policy, "seed": before.seed}
         if self.session.load(Choice(**{**kept, **wanted})):
             self._audience.tell("scene", b"")
-        self._begin_anew()
+        self.cockpit.begin_anew()
 
     def _on_wheel(self, who: object, *, on: bool) -> None:
-        if on and self.wheel.holder is None:
-            self.wheel.take(who)
+        wheel = self.inbox.wheel
+        if on and wheel.holder is None:
             self.session.begin_recording()
-        elif not on and self.wheel.give_back(who):
-            self._let_policy_drive()
-
-    def _let_policy_drive(self) -> None:
-        self.session.mind.take_over(self.session.simulation)
-        self._decision = None
-        self._announce()
+            wheel.take(who)
+            if self.cockpit.fault:
+                self.cockpit.pause(on=False)
+        elif not on and wheel.give_back(who):
+            self.cockpit.let_policy_drive()
 
     def _on_keep(self, who: object) -> None:
         del who
         if self.session.recording is not None:
             path = self.session.keep_recording()
-            self._audience.note(
-                f"Kept as {path}; learn from it with mjdrive train --data {path.parent}"
-            )
+            words = f"Kept as {path}; learn from it with mjdrive train --data {path.parent}"
+            self._audience.note(words)
+
+    def _on_drop(self, who: object) -> None:
+        del who
+        self.session.drop_recording()
 
     def _on_watch(self, who: object) -> None:
-        """A page has come: tell it all that others know already."""
         del who
-        self._audience.tell("history", history_message(self.session))
-        self._audience.tell("pose", self._pose())
-        if self._decision is not None:
-            self._tell_panel(self._decision)
-
-    def _begin_anew(self) -> None:
-        self._decision = None
-        self._pace.restart()
-        self._audience.tell("history", history_message(self.session))
-
-    def _announce(self) -> None:
-        values = state_values(self.session, is_paused=self.is_paused, speed=self._pace.factor)
-        self._audience.tell_state(values, self.wheel.holder)
-
-    def _decide(self) -> None:
-        self._decision = self.session.decide()
-        self._tell_panel(self._decision)
-
-    def _tell_panel(self, decision: Decision) -> None:
-        """Tell what the policy sees and thinks; the landscape is left out where there is no time for it."""
-        if not self._audience.is_watching:
-            return
-        density, points = None, None
-        if self.is_paused or not self._pace.is_late:
-            density = self.session.mind.density(decision.observation)
-            points = self.session.mind.points()
-        by_hand = self.wheel.holder is not None
-        message = panel_message(self.session, decision, density, points, by_hand=by_hand)
-        self._audience.tell("panel", message)
-
-    def _drive(self) -> None:
-        assert self._decision is not None, "there is a decision before each step"
-        interval = self.session.simulation.config.control_interval
-        action, by_hand = self._decision.action, False
-        if self._next is not None:
-            action, self._next = self._next, None
-        elif self.wheel.holder is not None:
-            action, by_hand = self.wheel.action(interval), True
-        try:
-            found = self.session.step(action, on_motion=self._on_motion, by_hand=by_hand)
-        except MjdriveError as error:
-            self._audience.note(f"{error} The drive starts again.", is_error=True)
-            self.session.reset()
-            self._begin_anew()
-            return
-        self._decision = None
-        self._steps_left = max(self._steps_left - 1, 0)
-        if found or self.session.recording is not None or self.is_paused:
-            self._announce()
-
-    def _on_motion(self) -> None:
-        """Called as the car moves: keep the pace and tell where it is."""
-        self._pace.beat(self.session.simulation.config.car_update_interval)
-        now = time.perf_counter()
-        if now - self._last_pose >= POSE_INTERVAL or self.is_paused:
-            self._last_pose = now
-            self._audience.tell("pose", self._pose())
-
-    def _pose(self) -> bytes:
-        return pose_message(self.session, seq=self.wheel.seq, rate=self._pace.rate)
+        self.cockpit.tell_all()

@@ -34,7 +34,7 @@ def panel_message(
     by_hand: bool,
 ) -> bytes:
     """Say what the policy sees and thinks, and what it would do."""
-    simulation = session.simulation
+    simulation, action = session.simulation, decision.action
     vehicle, lights = simulation.vehicle, simulation.lights
     head: dict[str, Any] = {
         "tick": decision.tick,
@@ -43,7 +43,7 @@ def panel_message(
         "y": round(vehicle.y, 2),
         "yaw": round(vehicle.yaw, 4),
         "speed": round(vehicle.speed, 3),
-        "action": [round(decision.action.acceleration, 4), round(decision.action.steering, 4)],
+        "action": action and [round(action.acceleration, 4), round(action.steering, 4)],
         "driven": [round(simulation.action.acceleration, 4), round(simulation.action.steering, 4)],
         "by": "hand" if by_hand else session.mind.name,
     }
@@ -66,14 +66,15 @@ def history_message(session: Session) -> bytes:
     return wire.pack("history", head, {"rows": session.rows.astype(np.float32)})
 
 
-def state_values(session: Session, *, is_paused: bool, speed: float) -> dict[str, Any]:
-    """Say what is chosen, and how the drive stands."""
+def state_values(session: Session, *, is_paused: bool, speed: float, fault: str) -> dict[str, Any]:
+    """Say what is chosen, how the drive stands, and why it stopped."""
     choice, recording = session.choice, session.recording
     return {
         "town": choice.town,
         "policy": choice.policy,
         "seed": choice.seed,
         "paused": is_paused,
+        "fault": fault,
         "speed": speed,
         "recorded": 0 if recording is None else len(recording),
         "infractions": [
