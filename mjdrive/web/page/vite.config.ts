@@ -2,6 +2,7 @@
 // change of the page is a change of these files and not a pile of new ones.
 export default {
   base: "./",
+  worker: { format: "es", rollupOptions: { output: { entryFileNames: "[name].js" } } },
   build: {
     outDir: "../static",
     emptyOutDir: true,

@@ -15,14 +15,16 @@ const VIEWS: Record<string, any> = {
   float32: Float32Array, uint32: Uint32Array, uint8: Uint8Array, int8: Int8Array,
 };
 
-export function unpack(buffer: ArrayBuffer): Message {
+export async function unpack(buffer: ArrayBuffer): Promise<Message> {
   const length = new DataView(buffer).getUint32(0, true);
   const { v, k, b, ...head } = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
   if (v !== VERSION) throw new Error(`The server speaks version ${v}, this page ${VERSION}. Load the page again.`);
   const blobs: Record<string, Blob_> = {}, shapes: Record<string, number[]> = {};
-  for (const [name, [dtype, shape, offset]] of Object.entries(b as Record<string, [string, number[], number]>)) {
-    const count = shape.reduce((product, size) => product * size, 1);
-    blobs[name] = new VIEWS[dtype](buffer, 4 + length + offset, count);
+  for (const [name, [dtype, shape, offset, deflated]] of Object.entries(b as Record<string, [string, number[], number, number?]>)) {
+    const begin = 4 + length + offset, count = shape.reduce((product, size) => product * size, 1);
+    blobs[name] = deflated === undefined
+      ? new VIEWS[dtype](buffer, begin, count)
+      : new VIEWS[dtype](await inflate(new Uint8Array(buffer, begin, deflated)), 0, count);
     shapes[name] = shape;
   }
   return { kind: k, head, blobs, shapes };
@@ -40,3 +42,6 @@ export async function fetchJson<T>(address: string, post = false): Promise<T> {
   if (!answer.ok) throw new Error(value.error ?? answer.statusText);
   return value;
 }
+
+const inflate = (content: Uint8Array<ArrayBuffer>): Promise<ArrayBuffer> =>
+  new Response(new Blob([content]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();

@@ -32,5 +32,4 @@ export function options(select: HTMLSelectElement, values: [string, string][], c
 export const COLORS = {
   speed: "#6cb8ff", acceleration: "#8fd694", steering: "#f2c14e", trail: "#6cb8ff", car: "#ff6b57", chosen: "#ffffff",
   road: "#4a525f", land: "#20252c", text: "#aab4c0", grid: "#323a45",
-  infraction: { red_light: "#ff4d4d", collision: "#ff9f43", off_road: "#e879f9", kerb: "#c9a26b", wrong_way: "#f472b6", stuck: "#9ca3af" } as Record<string, string>,
 };

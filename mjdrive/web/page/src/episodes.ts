@@ -19,30 +19,36 @@ export class Episodes {
   }
 
   async load(): Promise<void> {
-    this.list.replaceChildren(make("p", { className: "quiet", textContent: "Reading …" }));
+    if (!this.rows.length) this.list.replaceChildren(make("p", { className: "quiet", textContent: "Reading …" }));
     this.rows = await fetchJson<Episode[]>("api/episodes");
     this.show();
   }
 
   private show(): void {
     const words = this.filter.value.toLowerCase().split(/\s+/);
-    const whole = this.rows.filter((it) => !it.error), broken = this.rows.length - whole.length;
+    const whole = this.rows.filter((it) => !it.error), broken = this.rows.filter((it) => it.error);
     const found = whole.filter((it) => words.every((word) => `${it.name} ${it.town} ${it.policy} ${it.source}`.toLowerCase().includes(word)));
     if (!this.rows.length) {
       this.list.replaceChildren(make("div", { className: "empty" }, make("strong", { textContent: "No episode yet." }),
         " Drives of ", make("code", { textContent: "mjdrive drive" }), ", demonstrations of ", make("code", { textContent: "mjdrive collect" }), " and what you drive here by hand are listed on this tab."));
       return;
     }
-    this.list.replaceChildren(table(found, [
+    this.list.replaceChildren(this.table(found), make("p", { className: "quiet", textContent: `${found.length} of ${whole.length} episodes` }),
+      ...(broken.length ? [unreadable(broken)] : []));
+  }
+
+  private table(found: Episode[]): Node {
+    if (!found.length) return make("div", { className: "empty" }, "No episode has all of these words.");
+    return table(found, [
       { title: "Episode", value: (it) => it.name, show: (it) => this.link(it) },
       { title: "Town", value: (it) => it.town }, { title: "Policy", value: (it) => it.policy },
       { title: "Source", value: (it) => it.source, show: (it) => make("span", { className: `chip ${it.source}`, textContent: it.source }) },
       { title: "Seed", value: (it) => it.seed, numeric: true },
       { title: "Time [s]", value: (it) => it.duration, show: (it) => it.duration.toFixed(1), numeric: true },
-      { title: "Way [m]", value: (it) => it.distance, show: (it) => it.distance.toFixed(0), numeric: true },
-      { title: "Infractions", value: (it) => it.infractions, numeric: true },
-      { title: "", value: () => "", show: (it) => this.deleter(it) },
-    ], "Episodes"), make("p", { className: "quiet", textContent: `${found.length} of ${whole.length}${broken ? `; ${broken} damaged files are left out` : ""}` }));
+      { title: "Distance [m]", value: (it) => it.distance, show: (it) => it.distance.toFixed(0), numeric: true },
+      { title: "Infractions", value: (it) => it.infractions, show: (it) => (it.infractions ? make("strong", { textContent: String(it.infractions) }) : "0"), numeric: true },
+      { title: "", value: () => "", show: (it) => make("span", { className: "actions" }, exporter(it), this.deleter(it)) },
+    ], "Episodes");
   }
 
   private link({ name }: Episode): Node {
@@ -64,3 +70,11 @@ export class Episodes {
     return button;
   }
 }
+
+/** The file itself, under a name that says where it comes from. */
+const exporter = ({ name }: Episode): Node =>
+  make("a", { className: "link", textContent: "Export", ariaLabel: `Export ${name}`, href: `api/episode/file?name=${encodeURIComponent(name)}`, download: `${name.replaceAll("/", "-")}.hdf5` });
+
+const unreadable = (broken: Episode[]): Node =>
+  make("details", { className: "quiet" }, make("summary", { textContent: `${broken.length} ${broken.length > 1 ? "files" : "file"} cannot be read` }),
+    make("ul", {}, ...broken.map((it) => make("li", {}, make("strong", { textContent: it.name }), ` ${it.error}`))));

@@ -1,104 +1,72 @@
-// What the policy thinks of all actions: steering across, as it turns (left is left), acceleration upwards.
+// What the policy thinks of all actions: steering across, as it turns (left is left), acceleration upwards. Everything in the
+// panel belongs to one decision, whose tick is in its caption: the last one that there was time to draw a landscape for.
 import type { Message } from "./codec";
-import { $, COLORS, fitted, make, say } from "./dom";
+import { $, fitted, make, say } from "./dom";
+import { boxOf, DEPTH_NATS, drawAxes, drawMark, drawPoints, drawScale, paint, spotAt, type Spot } from "./landscape_drawing";
 
-const MARGIN = { left: 30, bottom: 24, top: 6, right: 6 };
-const ITERATION_COLORS = ["rgba(255,255,255,.35)", "rgba(120,220,255,.6)", "rgba(150,255,150,.95)"];
+const KEY_STEP = 1 / 32;
+const MOVES: Record<string, [number, number]> = { ArrowUp: [1, 0], ArrowDown: [-1, 0], ArrowLeft: [0, 1], ArrowRight: [0, -1] };
+
+interface Thought { tick: number; pixels?: Uint8Array; size: number; points?: Int8Array; chosen?: Spot; driven?: Spot }
 
 export class LandscapePanel {
   private readonly canvas = $<HTMLCanvasElement>("energy");
   private readonly field = make("canvas");
   private readonly line = $("energy-say");
-  private readonly iterations = make("div", { className: "switches" });
-  private pixels?: Uint8Array;
-  private points?: Int8Array;
-  private size = 0;
+  private readonly iterations = make("div", { className: "switches", role: "group", ariaLabel: "Iteration of the search" });
+  private thought: Thought = { tick: -1, size: 0 };
   private numIterations = 0;
   private shown = -1; // iteration; -1 is all
-  private head: Record<string, any> = {};
-  private landscapeTick = -1;
+  private cross: Spot | null = null;
+  private why = "";
   isPaused = false;
+  isLate = false;
 
   constructor(private readonly force: (acceleration: number, steering: number) => void) {
     this.canvas.after(this.iterations);
-    this.canvas.onmousemove = (event) => this.hover(event);
-    this.canvas.onmouseleave = () => this.tell();
-    this.canvas.onclick = (event) => { const at = this.at(event); if (at && this.isPaused) this.force(at.acceleration, at.steering); };
+    this.canvas.onmousemove = (event) => this.look(this.spot(event));
+    this.canvas.onmouseleave = this.canvas.onblur = () => this.look(null);
+    this.canvas.onclick = (event) => this.take(this.spot(event));
+    this.canvas.onkeydown = (event) => this.press(event);
   }
 
-  forget(): void { this.pixels = this.points = undefined; this.draw(); }
+  /** Show nothing until the next decision, and say why. */
+  forget(why = ""): void {
+    this.thought = { tick: -1, size: 0 };
+    this.why = why;
+    this.setIterations(0);
+    say($("energy-tick"), "");
+    this.draw();
+    this.tell();
+  }
 
   show({ head, blobs, shapes }: Message): void {
-    this.head = head;
-    if (blobs.density) {
-      this.pixels = blobs.density as Uint8Array;
-      this.size = shapes.density[0];
-      this.landscapeTick = head.tick;
-      this.paint();
-    }
-    this.points = blobs.points as Int8Array | undefined;
-    this.setIterations(this.points ? shapes.points[0] : 0);
+    if (!blobs.density && this.thought.pixels && this.isLate) return;
+    const spot = (action: number[] | null): Spot | undefined => (action ? { acceleration: action[0], steering: action[1] } : undefined);
+    this.thought = {
+      tick: head.tick, chosen: spot(head.action), driven: head.by === "hand" ? spot(head.driven) : undefined,
+      pixels: blobs.density as Uint8Array | undefined, size: blobs.density ? shapes.density[0] : 0, points: blobs.points as Int8Array | undefined,
+    };
+    if (this.thought.pixels) paint(this.field, this.thought.pixels, this.thought.size);
+    this.setIterations(blobs.points ? shapes.points[0] : 0);
+    say($("energy-tick"), `tick ${head.tick}`);
     this.draw();
     this.tell();
   }
 
   draw(): void {
-    const { pen, width, height } = fitted(this.canvas), box = this.box(width, height);
+    const { pen, width, height } = fitted(this.canvas), box = boxOf(width, height), { pixels, points, chosen, driven } = this.thought;
+    if (box.width < 1) return;
     pen.clearRect(0, 0, width, height);
     pen.fillStyle = "#12161b";
     pen.fillRect(box.x, box.y, box.width, box.height);
-    if (this.pixels) { pen.imageSmoothingEnabled = true; pen.drawImage(this.field, box.x, box.y, box.width, box.height); }
-    this.drawAxes(pen, box);
-    this.drawPoints(pen, box);
-    if (this.head.action) this.drawChosen(pen, box);
-  }
-
-  private paint(): void {
-    if (this.field.width !== this.size) this.field.width = this.field.height = this.size;
-    const image = new ImageData(this.size, this.size), last = this.size - 1;
-    for (let row = 0; row < this.size; row++) for (let column = 0; column < this.size; column++) {
-      const value = this.pixels![(last - row) * this.size + (last - column)] / 255; // row down, left is positive steering
-      image.data.set([...magma(value), 255], 4 * (row * this.size + column));
-    }
-    this.field.getContext("2d")!.putImageData(image, 0, 0);
-  }
-
-  private drawAxes(pen: CanvasRenderingContext2D, box: Box): void {
-    pen.strokeStyle = "rgba(255,255,255,.18)";
-    pen.lineWidth = 1;
-    pen.beginPath();
-    pen.moveTo(box.x + box.width / 2, box.y); pen.lineTo(box.x + box.width / 2, box.y + box.height);
-    pen.moveTo(box.x, box.y + box.height / 2); pen.lineTo(box.x + box.width, box.y + box.height / 2);
-    pen.stroke();
-    pen.fillStyle = COLORS.text;
-    pen.font = "11px system-ui, sans-serif";
-    pen.textAlign = "center"; pen.textBaseline = "top";
-    for (const [text, share] of [["left", 0.06], ["steering", 0.5], ["right", 0.93]] as const) pen.fillText(text, box.x + share * box.width, box.y + box.height + 6);
-    pen.save();
-    pen.translate(box.x - 18, 0); pen.rotate(-Math.PI / 2);
-    for (const [text, share] of [["gas", 0.08], ["acceleration", 0.5], ["brake", 0.9]] as const) pen.fillText(text, -(box.y + share * box.height), -2);
-    pen.restore();
-  }
-
-  private drawPoints(pen: CanvasRenderingContext2D, box: Box): void {
-    if (!this.points) return;
-    const each = this.points.length / this.numIterations;
-    for (let iteration = 0; iteration < this.numIterations; iteration++) {
-      if (this.shown >= 0 && this.shown !== iteration) continue;
-      pen.fillStyle = ITERATION_COLORS[Math.round((iteration / Math.max(1, this.numIterations - 1)) * 2)];
-      for (let at = iteration * each; at < (iteration + 1) * each; at += 2) {
-        const [x, y] = place(box, this.points[at] / 127, this.points[at + 1] / 127);
-        pen.fillRect(x - 1, y - 1, 2, 2);
-      }
-    }
-  }
-
-  private drawChosen(pen: CanvasRenderingContext2D, box: Box): void {
-    const [x, y] = place(box, this.head.action[0], this.head.action[1]);
-    for (const [width, color] of [[4, "rgba(0,0,0,.7)"], [2, COLORS.chosen]] as const) {
-      pen.strokeStyle = color; pen.lineWidth = width;
-      pen.beginPath(); pen.arc(x, y, 6, 0, 7); pen.stroke();
-    }
+    if (pixels) { pen.imageSmoothingEnabled = true; pen.drawImage(this.field, box.x, box.y, box.width, box.height); }
+    drawAxes(pen, box);
+    drawScale(pen, box);
+    if (points) drawPoints(pen, box, points, this.numIterations, this.shown);
+    if (driven) drawMark(pen, box, driven, "square");
+    if (chosen) drawMark(pen, box, chosen, "ring");
+    if (this.cross) drawMark(pen, box, this.cross, "cross");
   }
 
   private setIterations(count: number): void {
@@ -106,8 +74,8 @@ export class LandscapePanel {
     this.numIterations = count;
     this.shown = -1;
     const names = ["all", ...Array.from({ length: count }, (_, index) => `${index + 1}`)];
-    this.iterations.replaceChildren(...(count ? ["search", ...names.map((name, index) => {
-      const button = make("button", { type: "button", textContent: name, ariaPressed: String(index === 0) });
+    this.iterations.replaceChildren(...(count ? ["search ", ...names.map((name, index) => {
+      const button = make("button", { type: "button", textContent: name, ariaPressed: String(index === 0), ariaLabel: index ? `Iteration ${name}` : "All iterations" });
       button.onclick = () => {
         this.shown = index - 1;
         this.iterations.querySelectorAll("button").forEach((it) => (it.ariaPressed = String(it === button)));
@@ -117,41 +85,45 @@ export class LandscapePanel {
     })] : []));
   }
 
+  private press(event: KeyboardEvent): void {
+    const move = MOVES[event.key];
+    if (!this.isPaused || !(move || event.key === "Enter" || event.key === "Escape")) return;
+    event.preventDefault(); // else the same key would drive
+    if (event.key === "Enter") return this.take(this.cross);
+    const from = this.cross ?? this.thought.chosen ?? { acceleration: 0, steering: 0 };
+    const bound = (value: number): number => Math.min(Math.max(value, -1), 1);
+    this.look(move ? { acceleration: bound(from.acceleration + KEY_STEP * move[0]), steering: bound(from.steering + KEY_STEP * move[1]) } : null);
+  }
+
+  private take(spot: Spot | null): void { if (spot && this.isPaused) this.force(spot.acceleration, spot.steering); }
+
+  private look(spot: Spot | null): void {
+    this.cross = spot;
+    this.draw();
+    this.tell();
+  }
+
   private tell(): void {
-    const [acceleration, steering] = this.head.action ?? [0, 0];
-    const stale = this.pixels && this.landscapeTick !== this.head.tick ? `, landscape of tick ${this.landscapeTick}` : "";
-    const none = this.pixels ? "" : " · an expert weighs no alternatives";
-    say(this.line, `chosen: ${signed(acceleration)} acceleration, ${signed(steering)} steering${stale}${none}`);
+    const { pixels, size, chosen, driven } = this.thought;
+    if (this.cross) {
+      const hint = this.isPaused ? " · click or Enter takes it" : " · pause to take it";
+      return say(this.line, `${words(this.cross)}${pixels ? ": " + below(pixels, size, this.cross) : ""}${hint}`);
+    }
+    const none = this.isLate ? "The simulation is late, so no landscape is made; pause to see one." : "This policy names one action and weighs no others.";
+    const marks = [chosen ? `○ chosen: ${words(chosen)}` : "", driven ? `□ driven: ${words(driven)}` : ""].filter(Boolean).join(" · ");
+    say(this.line, [this.why, marks, pixels || this.why || !chosen ? "" : none].filter(Boolean).join(" · "));
   }
 
-  private hover(event: MouseEvent): void {
-    const at = this.at(event);
-    if (!at || !this.pixels) return this.tell();
-    const row = Math.round((at.acceleration + 1) / 2 * (this.size - 1)), column = Math.round((at.steering + 1) / 2 * (this.size - 1));
-    const below = (1 - this.pixels[row * this.size + column] / 255) * 12;
-    const hint = this.isPaused ? " · click to take it" : "";
-    say(this.line, `${signed(at.acceleration)}, ${signed(at.steering)}: ${below >= 11.9 ? "12 nats or more" : below.toFixed(1) + " nats"} below the best${hint}`);
-  }
-
-  private at(event: MouseEvent): { acceleration: number; steering: number } | null {
-    const box = this.box(this.canvas.clientWidth, this.canvas.clientHeight);
-    const steering = 1 - 2 * (event.offsetX - box.x) / box.width, acceleration = 1 - 2 * (event.offsetY - box.y) / box.height;
-    return Math.abs(steering) <= 1 && Math.abs(acceleration) <= 1 ? { acceleration, steering } : null;
-  }
-
-  private box(width: number, height: number): Box {
-    return { x: MARGIN.left, y: MARGIN.top, width: width - MARGIN.left - MARGIN.right, height: height - MARGIN.top - MARGIN.bottom };
+  private spot(event: MouseEvent): Spot | null {
+    return spotAt(boxOf(this.canvas.clientWidth, this.canvas.clientHeight), event.offsetX, event.offsetY);
   }
 }
 
-interface Box { x: number; y: number; width: number; height: number }
-
-const place = (box: Box, acceleration: number, steering: number): [number, number] =>
-  [box.x + (1 - steering) / 2 * box.width, box.y + (1 - acceleration) / 2 * box.height];
 const signed = (value: number): string => (value >= 0 ? "+" : "−") + Math.abs(value).toFixed(2);
+const words = ({ acceleration, steering }: Spot): string => `acceleration ${signed(acceleration)}, steering ${signed(steering)}`;
 
-const MAGMA = [[9, 10, 20], [58, 20, 104], [140, 41, 129], [222, 73, 104], [254, 159, 109], [252, 253, 191]];
-function magma(value: number): number[] {
-  const at = Math.min(value, 0.9999) * (MAGMA.length - 1), low = Math.floor(at), share = at - low;
-  return MAGMA[low].map((from, index) => from + share * (MAGMA[low + 1][index] - from));
+function below(pixels: Uint8Array, size: number, { acceleration, steering }: Spot): string {
+  const row = Math.round((acceleration + 1) / 2 * (size - 1)), column = Math.round((steering + 1) / 2 * (size - 1));
+  const nats = (1 - pixels[row * size + column] / 255) * DEPTH_NATS;
+  return `${nats >= DEPTH_NATS - 0.1 ? `${DEPTH_NATS} nats or more` : `${nats.toFixed(1)} nats`} below the best`;
 }

@@ -1,9 +1,12 @@
-// The socket: acknowledges every message, so that a slow page loses frames and never sees old ones; comes back by itself.
-import { unpack, type Message } from "./codec";
+// The page's end of the socket, which lives in a worker: it acknowledges every message when that has been handled, so that a
+// slow page loses frames and never sees old ones.
+import type { Message } from "./codec";
+import type { FromWorker, ToWorker } from "./socket_worker";
 
 export interface State {
-  town: string; policy: string; seed: number; paused: boolean; speed: number; recorded: number;
-  wheel: "free" | "yours" | "taken"; pages: number; infractions: Infraction[];
+  town: string; policy: string; seed: number; paused: boolean; speed: number; recorded: number; infractions: Infraction[];
+  fault?: string | null; wheel: "free" | "yours" | "taken"; pages: number; you: number; operator: number; driver: number; asking: number[];
+  link?: "slow" | "full";
 }
 export type Infraction = [kind: string, time: number, x: number, y: number, cause: string];
 
@@ -12,47 +15,40 @@ interface Handlers {
   state(state: State): void;
   note(line: string, isError: boolean): void;
   scene(): void;
-  status(line: string, live: boolean): void;
+  status(line: string, isLive: boolean): void;
 }
 
-const AGAIN_MS = 1000;
-
 export class Link {
-  private socket!: WebSocket;
-  private handled = 0;
+  private readonly worker = new Worker(new URL("./socket_worker.ts", import.meta.url), { type: "module", name: "socket" });
 
   constructor(private readonly on: Handlers) {
-    this.connect();
-    document.addEventListener("visibilitychange", () => this.send({ op: "hidden", on: document.hidden }));
-  }
-
-  send(command: object): void {
-    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(command));
-  }
-
-  private connect(): void {
+    this.worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.hear(data);
+    document.addEventListener("visibilitychange", () => this.sayHidden());
     const address = new URL("ws", location.href);
     address.protocol = address.protocol.replace("http", "ws");
     address.search = address.hash = "";
-    this.socket = new WebSocket(address);
-    this.socket.binaryType = "arraybuffer";
-    this.handled = 0;
-    this.socket.onopen = () => { this.on.status("live", true); if (document.hidden) this.send({ op: "hidden", on: true }); };
-    this.socket.onclose = (event) => {
-      this.on.status(event.reason || "connection lost, trying again …", false);
-      setTimeout(() => this.connect(), AGAIN_MS);
-    };
-    this.socket.onmessage = ({ data }) => (typeof data === "string" ? this.hear(JSON.parse(data)) : this.look(data));
+    this.post({ open: address.href });
   }
 
-  private look(data: ArrayBuffer): void {
-    this.send({ op: "ack", n: ++this.handled });
-    this.on.message(unpack(data));
+  send(command: object): void { this.post({ say: command }); }
+
+  /** What is held down; the worker repeats it until something else is, or null. */
+  hold(command: object | null): void { this.post({ hold: command }); }
+
+  private post(value: ToWorker): void { this.worker.postMessage(value); }
+
+  private hear(data: FromWorker): void {
+    if ("message" in data) {
+      this.on.message(data.message);
+      this.post({ handled: data.number, socket: data.socket });
+    } else if ("status" in data) {
+      this.on.status(data.status, data.isLive);
+      if (data.isLive && document.hidden) this.sayHidden();
+    } else if ("failure" in data) this.on.note(data.failure, true);
+    else if (data.told.k === "state") this.on.state(data.told);
+    else if (data.told.k === "note") this.on.note(data.told.line, data.told.error);
+    else if (data.told.k === "scene") this.on.scene();
   }
 
-  private hear(told: any): void {
-    if (told.k === "state") this.on.state(told);
-    else if (told.k === "note") this.on.note(told.line, told.error);
-    else if (told.k === "scene") this.on.scene();
-  }
+  private sayHidden(): void { this.send({ op: "hidden", on: document.hidden }); }
 }

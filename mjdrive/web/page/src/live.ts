@@ -5,12 +5,14 @@ import { CAMERAS, type CameraName } from "./cameras";
 import { ChartsPanel } from "./charts";
 import { fetchMessage, type Message } from "./codec";
 import { $, COLORS, make, say } from "./dom";
+import { showCounts } from "./infractions";
 import { LandscapePanel } from "./landscape";
 import type { Infraction, State } from "./link";
 import { MapPanel } from "./map";
 import { View } from "./view";
 
 const DRAW_MS = 100;
+const ENOUGH = 0.95; // of the speed that is asked for; below it the simulation is late
 
 export class Live {
   readonly bev = new BevPanel();
@@ -22,19 +24,21 @@ export class Live {
   poses = 0;
   town = "";
   isReplaying = false;
-  private lastDrawn = 0;
+  private speed = 1;
+  private isDrawDue = false;
   private shownInfractions = "";
 
   constructor(send: (command: object) => void, seek: (time: number) => void) {
-    this.landscape = new LandscapePanel((acceleration, steering) => send({ op: "force", acceleration, steering }));
+    this.landscape = new LandscapePanel((acceleration, steering) => { if (!this.isReplaying) send({ op: "force", acceleration, steering }); });
     this.map = new MapPanel(seek);
     this.view = this.openView();
     this.addCameras();
     new ResizeObserver(() => this.redraw()).observe($("panels"));
   }
 
-  async loadScene(): Promise<void> {
-    const scene = await fetchMessage("api/scene");
+  /** Load the scene that is driven, or that of a town that is only looked at. */
+  async loadScene(town?: string): Promise<void> {
+    const scene = await fetchMessage(town ? `api/scene?town=${encodeURIComponent(town)}` : "api/scene");
     this.town = scene.head.town;
     this.view?.setTown(scene);
     this.map.setTown(scene);
@@ -53,11 +57,18 @@ export class Live {
   }
 
   setState(state: State): void {
+    this.speed = state.speed;
+    if (this.isReplaying) return;
     this.landscape.isPaused = state.paused;
-    if (!this.isReplaying) this.setInfractions(state.infractions);
-    $("badge").hidden = state.wheel === "free" || this.isReplaying;
-    say($("badge"), state.wheel === "yours" ? `You drive${state.recorded ? ` · ${(state.recorded / 10).toFixed(0)} s recorded` : ""}` : "Somebody else drives");
-    $("badge").classList.toggle("theirs", state.wheel === "taken");
+    this.setInfractions(state.infractions);
+    const yours = state.wheel === "yours", badge = $("badge");
+    const who = yours ? `You drive${state.recorded ? ` · ${(state.recorded / 10).toFixed(0)} s recorded` : ""}`
+      : state.wheel === "taken" ? `Page ${state.driver} drives` : `${state.policy} drives`;
+    say(badge, state.paused ? `${who} · paused` : who);
+    badge.classList.toggle("yours", yours);
+    badge.classList.toggle("theirs", state.wheel === "taken");
+    $("fault").hidden = !state.fault;
+    say($("fault"), state.fault ? `The drive has stopped. ${state.fault}` : "");
   }
 
   setInfractions(infractions: Infraction[]): void {
@@ -66,13 +77,7 @@ export class Live {
     this.shownInfractions = key;
     this.map.setInfractions(infractions);
     this.map.draw();
-    const counts = new Map<string, number>();
-    for (const [kind] of infractions) counts.set(kind, (counts.get(kind) ?? 0) + 1);
-    $("infractions").replaceChildren(...(counts.size ? [...counts].map(([kind, count]) => {
-      const item = make("li", { textContent: `${count} × ${kind.replace("_", " ")}` });
-      item.style.setProperty("--swatch", COLORS.infraction[kind]);
-      return item;
-    }) : [make("li", { className: "clean", textContent: "no infraction" })]));
+    showCounts(infractions);
   }
 
   showMotion(time: number, speed: number, acceleration: number, steering: number): void {
@@ -99,6 +104,7 @@ export class Live {
     this.poses++;
     this.view?.setPose(blobs.q as Float32Array);
     this.showMotion(head.t, head.speed, head.action[0], head.action[1]);
+    this.landscape.isLate = head.rate < ENOUGH * this.speed;
     say($("rate"), `${head.rate.toFixed(2)}× real time`);
   }
 
@@ -111,11 +117,20 @@ export class Live {
     this.map.setLights(blobs.lights);
     this.map.move(head.x, head.y, head.yaw);
     this.charts.add([head.t, head.x, head.y, head.speed, ...head.driven]);
-    for (const id of ["bev-tick", "energy-tick"]) say($(id), `tick ${head.tick}`);
-    if (performance.now() - this.lastDrawn < DRAW_MS) return;
-    this.lastDrawn = performance.now();
-    this.map.draw();
-    this.charts.draw();
+    say($("bev-tick"), `tick ${head.tick}`);
+    this.drawSoon();
+  }
+
+  /** Ten times a second at most, and once more after the last. */
+  private drawSoon(): void {
+    if (this.isDrawDue) return;
+    this.isDrawDue = true;
+    setTimeout(() => {
+      this.isDrawDue = false;
+      if (this.isReplaying) return;
+      this.map.draw();
+      this.charts.draw();
+    }, DRAW_MS);
   }
 
   private openView(): View | null {

@@ -12,11 +12,12 @@ import { Runs } from "./runs";
 
 const TABS = ["live", "episodes", "runs"] as const;
 type Tab = (typeof TABS)[number];
+const NOTE_MS = 6000;
 
 const send = (command: object): void => link.send(command);
 const live = new Live(send, (time) => replay.seek(time));
 const controls = new Controls(send);
-const replay = new Replay(live, note, (town) => send({ op: "load", town }));
+const replay = new Replay(live, note);
 const episodes = new Episodes((name) => { choose("live"); void replay.open(name); }, (line) => note(line, true));
 const runs = new Runs();
 let state: State | undefined;
@@ -25,13 +26,15 @@ const link = new Link({
   message: (message) => live.hear(message),
   state: showState,
   note,
-  scene: () => void loadScene(),
+  scene: () => { if (!replay.isOpen) void loadScene(); },
   status: (line, isLive) => { $("status").textContent = line; document.body.classList.toggle("lost", !isLive); },
 });
 
-const keys = new Keys(send, {
+const keys = new Keys({ hold: (command) => link.hold(command), giveBack: () => controls.giveBack() }, {
   Space: () => (replay.isOpen ? replay.toggle() : controls.pause()),
-  ".": () => controls.step(), Backspace: () => controls.reset(), t: () => controls.wheel(), Enter: () => controls.keep(),
+  ".": () => (replay.isOpen ? replay.stepBy(1) : controls.step()), ",": () => { if (replay.isOpen) replay.stepBy(-1); },
+  Backspace: () => (replay.isOpen ? replay.stepBy(-Infinity) : controls.reset()), Escape: () => { if (replay.isOpen) replay.close(); },
+  t: () => controls.wheel(), Enter: () => controls.keep(), Delete: () => controls.drop(),
   c: () => live.nextCamera(), "?": toggleHelp, "1": () => choose("live"), "2": () => choose("episodes"), "3": () => choose("runs"),
 });
 
@@ -41,7 +44,7 @@ function showState(told: State): void {
   controls.show(told);
   live.setState(told);
   keys.setDriving(told.wheel === "yours");
-  $("status").textContent = `live${told.pages > 1 ? ` · ${told.pages} pages open` : ""}`;
+  $("status").textContent = `live · page ${told.you}${told.pages > 1 ? ` of ${told.pages} open` : ""}`;
   if (isFirst) void controls.begin().catch((error: Error) => note(error.message, true));
 }
 
@@ -51,7 +54,7 @@ function note(line: string, isError: boolean): void {
   box.classList.toggle("error", isError);
   box.firstElementChild!.textContent = line;
   clearTimeout(Number(box.dataset.timer));
-  if (!isError) box.dataset.timer = String(setTimeout(() => (box.hidden = true), 6000));
+  if (!isError) box.dataset.timer = String(setTimeout(() => (box.hidden = true), NOTE_MS));
 }
 
 function choose(tab: Tab): void {
@@ -71,13 +74,20 @@ async function loadScene(): Promise<void> {
   } catch (error) { note((error as Error).message, true); }
 }
 
+/** Go on with what is driven now. */
+async function showLive(): Promise<void> {
+  if (state && live.town !== state.town) await loadScene();
+  if (state) live.setState(state);
+  send({ op: "watch" });
+}
+
 for (const it of TABS) $(`tab-${it}`).onclick = () => choose(it);
 $("help-open").onclick = toggleHelp;
 $("note").querySelector("button")!.onclick = () => ($("note").hidden = true);
-addEventListener("live-again", () => { if (state) live.setState(state); send({ op: "watch" }); });
+addEventListener("live-again", () => void showLive());
 await loadScene();
-const [tab, episode] = [TABS.find((it) => it === asked("tab")), asked("episode")];
+const [tab, episode, time] = [TABS.find((it) => it === asked("tab")), asked("episode"), asked("t")];
 if (tab) choose(tab);
-if (episode) void replay.open(episode);
+if (episode) void replay.open(episode, time === null || Number.isNaN(Number(time)) ? undefined : Number(time));
 // For tests: what has been drawn so far.
 Object.assign(window, { mjdrive: { live, replay, state: () => state } });

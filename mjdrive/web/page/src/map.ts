@@ -1,11 +1,13 @@
 // The town from above, with the trail of the car and where it broke the rules.
 import type { Message } from "./codec";
 import { $, COLORS, fitted, say } from "./dom";
+import { described, drawPin, PIN_PX } from "./infractions";
 import type { Infraction } from "./link";
 
 const MARGIN = 10;
-const LIGHTS = ["#37d67a", "#f5c542", "#ff4d4d"];
-const PIN_PX = 9;
+const LIGHTS = ["#37d67a", "#f5c542", "#ff5c4d"];
+const LIGHT_PX = [1.5, 1.8, 2.2]; // size tells a red one, too, for those who see no red
+const MOST_POINTS = 6000;
 
 export class MapPanel {
   private readonly canvas = $<HTMLCanvasElement>("map");
@@ -21,18 +23,31 @@ export class MapPanel {
     this.canvas.onmousemove = (event) => {
       const pin = this.pinAt(event);
       this.canvas.style.cursor = pin ? "pointer" : "";
-      say($("map-say"), pin ? `${pin[0].replace("_", " ")} at ${pin[1]} s: ${pin[4]}` : "");
+      say($("map-say"), pin ? described(pin) : "");
     };
   }
 
   setTown(town: Message): void { this.town = town; this.base = undefined; }
   setInfractions(infractions: Infraction[]): void { this.infractions = infractions; }
-  setTrail(rows: Float32Array): void { this.trail.length = 0; for (let at = 0; at < rows.length; at += 6) this.trail.push(rows[at + 1], rows[at + 2]); }
+  setTrail(rows: Float32Array): void {
+    this.trail.length = 0;
+    for (let at = 0; at < rows.length; at += 6) this.trail.push(rows[at + 1], rows[at + 2]);
+    while (this.trail.length > 2 * MOST_POINTS) this.thinOut();
+  }
   setLights(lights: ArrayLike<number>): void { this.lights = lights; }
 
   move(x: number, y: number, yaw: number, grows = true): void {
     this.car = { x, y, yaw };
-    if (grows) this.trail.push(x, y);
+    if (!grows) return;
+    this.trail.push(x, y);
+    if (this.trail.length > 2 * MOST_POINTS) this.thinOut();
+  }
+
+  /** A page left open over night must draw no slower in the morning. */
+  private thinOut(): void {
+    let kept = 0;
+    for (let at = 0; at < this.trail.length; at += 4) { this.trail[kept++] = this.trail[at]; this.trail[kept++] = this.trail[at + 1]; }
+    this.trail.length = kept;
   }
 
   draw(): void {
@@ -45,7 +60,7 @@ export class MapPanel {
     pen.beginPath();
     for (let at = 0; at < this.trail.length; at += 2) pen.lineTo(to.x(this.trail[at]), to.y(this.trail[at + 1]));
     pen.stroke();
-    for (const it of this.infractions) pin(pen, to.x(it[2]), to.y(it[3]), COLORS.infraction[it[0]] ?? "#fff");
+    for (const it of this.infractions) drawPin(pen, to.x(it[2]), to.y(it[3]), it[0]);
     this.drawCar(pen, to);
   }
 
@@ -70,7 +85,7 @@ export class MapPanel {
     const places = this.town!.blobs.light_places;
     for (let light = 0; light < this.lights.length && 2 * light < places.length; light++) {
       pen.fillStyle = LIGHTS[this.lights[light]];
-      pen.beginPath(); pen.arc(to.x(places[2 * light]), to.y(places[2 * light + 1]), 1.8, 0, 7); pen.fill();
+      pen.beginPath(); pen.arc(to.x(places[2 * light]), to.y(places[2 * light + 1]), LIGHT_PX[this.lights[light]], 0, 7); pen.fill();
     }
   }
 
@@ -98,9 +113,3 @@ export class MapPanel {
 }
 
 interface Projection { scale: number; x(x: number): number; y(y: number): number }
-
-function pin(pen: CanvasRenderingContext2D, x: number, y: number, color: string): void {
-  pen.fillStyle = color; pen.strokeStyle = "#11151a"; pen.lineWidth = 1;
-  pen.beginPath(); pen.arc(x, y - PIN_PX, 4.5, Math.PI * 0.85, Math.PI * 0.15); pen.lineTo(x, y); pen.closePath();
-  pen.fill(); pen.stroke();
-}

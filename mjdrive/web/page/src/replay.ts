@@ -1,11 +1,14 @@
 // An episode on the live view's panels; the scrubber is this page's own, others go on watching what they watch.
 import { remember } from "./address";
 import { fetchMessage, type Message } from "./codec";
-import { $, COLORS, make, say } from "./dom";
+import { $, make, options, say } from "./dom";
+import { described, look } from "./infractions";
 import type { Infraction } from "./link";
 import type { Live } from "./live";
 
 const COLUMNS = 6;
+const STEP_MS = 100;
+const SPEEDS = [0.5, 1, 2, 4];
 
 export class Replay {
   private episode?: Message;
@@ -15,34 +18,36 @@ export class Replay {
   private due = 0;
   private isFetching = false;
   private readonly bar = make("input", { type: "range", min: "0", step: "1", value: "0", ariaLabel: "Time in the episode" });
-  private readonly play = make("button", { type: "button", textContent: "Play" });
+  private readonly play = make("button", { type: "button", textContent: "Play", title: "Space" });
+  private readonly factor = make("select", { ariaLabel: "Speed of the replay" });
   private readonly title = make("span", { className: "title" });
+  private readonly time = make("output", { className: "time", ariaLabel: "Time in the episode" });
   private readonly marks = make("div", { className: "marks" });
 
-  constructor(private readonly live: Live, private readonly note: (line: string, isError: boolean) => void, private readonly loadTown: (town: string) => void) {
+  constructor(private readonly live: Live, private readonly note: (line: string, isError: boolean) => void) {
     const close = make("button", { type: "button", textContent: "Back to live" });
     close.onclick = () => this.close();
     this.play.onclick = () => this.toggle();
     this.bar.oninput = () => this.go(Number(this.bar.value));
-    $("replay").append(this.title, this.play, make("div", { className: "track" }, this.bar, this.marks), close);
+    options(this.factor, SPEEDS.map((it) => [String(it), `${it}×`]), "1");
+    $("replay").append(this.title, this.play, this.factor, make("div", { className: "track" }, this.bar, this.marks), this.time, close);
   }
 
   get isOpen(): boolean { return this.episode !== undefined; }
 
-  async open(name: string): Promise<void> {
+  /** Show an episode from its start, or from a time [s]. */
+  async open(name: string, from?: number): Promise<void> {
     try {
-      this.episode = await fetchMessage(`api/episode?name=${encodeURIComponent(name)}`);
-    } catch (error) { return this.note((error as Error).message, true); }
+      const episode = await fetchMessage(`api/episode?name=${encodeURIComponent(name)}`);
+      if (episode.head.town !== this.live.town) await this.live.loadScene(episode.head.town);
+      this.episode = episode;
+    } catch (error) { remember({ episode: null, t: null }); return this.note((error as Error).message, true); }
     const { head, blobs } = this.episode;
-    if (head.town !== this.live.town) {
-      this.note(`${name} was driven in ${head.town}; that town is loaded to show it.`, false);
-      this.loadTown(head.town);
-    }
     this.live.isReplaying = true;
     document.body.classList.add("replaying");
     $("replay").hidden = false;
-    $("badge").hidden = true;
-    this.live.landscape.forget();
+    $("badge").hidden = $("fault").hidden = true;
+    this.live.landscape.forget("An episode keeps what was seen and done, not what was thought.");
     this.live.map.setTrail(blobs.rows as Float32Array);
     this.live.charts.set(blobs.rows);
     this.live.setInfractions(head.infractions as Infraction[]);
@@ -50,7 +55,8 @@ export class Replay {
     this.bar.max = String(this.length - 1);
     this.mark(head.infractions as Infraction[]);
     remember({ episode: name });
-    this.go(0);
+    if (from === undefined) this.go(0);
+    else this.seek(from);
   }
 
   close(): void {
@@ -58,6 +64,8 @@ export class Replay {
     this.isPlaying = this.live.isReplaying = false;
     document.body.classList.remove("replaying");
     $("replay").hidden = true;
+    $("badge").hidden = false;
+    say(this.play, "Play");
     remember({ episode: null, t: null });
     dispatchEvent(new Event("live-again"));
   }
@@ -72,8 +80,10 @@ export class Replay {
 
   /** Go to a time [s] of the episode. */
   seek(time: number): void {
-    if (this.isOpen) this.go(Math.round((time - this.row(0)[0]) * 10));
+    if (this.isOpen) this.go(Math.round((time - this.row(0)[0]) * 1000 / STEP_MS));
   }
+
+  stepBy(steps: number): void { this.go(this.step + steps); }
 
   private get length(): number { return this.episode!.blobs.rows.length / COLUMNS; }
 
@@ -81,7 +91,7 @@ export class Replay {
 
   private frame = (time: number): void => {
     if (!this.isPlaying || !this.isOpen) return;
-    this.due += (time - this.lastFrame) / 100; // a step is 0.1 s
+    this.due += Number(this.factor.value) * (time - this.lastFrame) / STEP_MS;
     this.lastFrame = time;
     const steps = Math.floor(this.due);
     this.due -= steps;
@@ -100,7 +110,8 @@ export class Replay {
     this.live.map.move(row[1], row[2], yaw(pose), false);
     this.live.map.draw();
     this.live.charts.draw(row[0]);
-    for (const id of ["bev-tick", "energy-tick"]) say($(id), `step ${this.step}`);
+    say(this.time, `${row[0].toFixed(1)} s`);
+    say($("bev-tick"), `step ${this.step}`);
     remember({ t: row[0].toFixed(1) });
     void this.fetchView();
   }
@@ -119,11 +130,12 @@ export class Replay {
 
   private mark(infractions: Infraction[]): void {
     const first = this.row(0)[0], last = this.row(this.length - 1)[0];
-    this.marks.replaceChildren(...infractions.map(([kind, time]) => {
-      const mark = make("button", { type: "button", title: `${kind.replace("_", " ")} at ${time} s`, ariaLabel: `Go to ${kind} at ${time} s` });
-      mark.style.left = `${100 * (time - first) / Math.max(last - first, 0.1)}%`;
-      mark.style.background = COLORS.infraction[kind];
-      mark.onclick = () => this.seek(time);
+    this.marks.replaceChildren(...infractions.map((it) => {
+      const [letter, color] = look(it[0]), words = described(it);
+      const mark = make("button", { type: "button", textContent: letter, title: words, ariaLabel: `Go to ${words}` });
+      mark.style.left = `${100 * (it[1] - first) / Math.max(last - first, 0.1)}%`;
+      mark.style.background = color;
+      mark.onclick = () => this.seek(it[1]);
       return mark;
     }));
   }
