@@ -5,16 +5,18 @@ from functools import lru_cache
 
 import anyio.to_thread
 from starlette.requests import Request
-from starlette.responses import JSONResponse, Response
+from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 
 from mjdrive.datatypes import Episode
-from mjdrive.errors import MjdriveError
+from mjdrive.errors import MjdriveError, UnknownNameError
+from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import library
 from mjdrive.web import wire
 from mjdrive.web.browsing import Shelf
 from mjdrive.web.policies import policy_names
 from mjdrive.web.replaying import episode_message, view_at
+from mjdrive.web.scene import scene_message
 from mjdrive.web.simulator import Simulator
 
 BINARY = "application/octet-stream"
@@ -43,6 +45,7 @@ class Api:
             Route("/api/drives", _apart(self._shelf.drive_figures)),
             Route("/api/episode", self.episode),
             Route("/api/episode/view", self.view),
+            Route("/api/episode/file", self.file),
             Route("/api/episode/delete", self.delete, methods=["POST"]),
         ]
 
@@ -53,8 +56,11 @@ class Api:
         return JSONResponse({"v": wire.VERSION, "towns": library.town_names(), "policies": names})
 
     async def scene(self, request: Request) -> Response:
-        """The town that is driven."""
+        """The town that is driven, or another one by its name, to replay in it what others do not watch."""
         session = self._simulator.session
+        name = request.query_params.get("town", session.choice.town)
+        if name != session.choice.town:
+            return await _binary(lambda: _scene_of(name))
         tag = f'"{session.simulation.town.digest[:16]}-{wire.VERSION}"'
         headers = {"etag": tag, "cache-control": "no-cache"}
         if request.headers.get("if-none-match") == tag:
@@ -73,6 +79,15 @@ class Api:
             return _refused("Expected step=N, a control step of the episode.")
         return await _binary(lambda: _view(self._episode(name), int(step)))
 
+    async def file(self, request: Request) -> Response:
+        """The file of one episode, to take away."""
+        name = request.query_params.get("name", "")
+        try:
+            path = await anyio.to_thread.run_sync(self._shelf.file, name)
+        except MjdriveError as error:
+            return _refused(str(error))
+        return FileResponse(path, media_type=BINARY, filename=f"{name.replace('/', '-')}.hdf5")
+
     async def delete(self, request: Request) -> Response:
         """Delete one drive."""
         try:
@@ -86,6 +101,20 @@ class Api:
 def _view(episode: Episode, step: int) -> bytes:
     at = min(step, len(episode.time) - 1)
     return wire.pack("view", {"step": at}, {"bev": view_at(episode, at)})
+
+
+@lru_cache(maxsize=2)
+def _scene_of(name: str) -> bytes:
+    """Describe a town that nobody drives in now.
+
+    Raises:
+        UnknownNameError: If there is no such town.
+    """
+    names = library.town_names()
+    if name not in names:
+        raise UnknownNameError("town", name, names)
+    town = library.load(name)
+    return scene_message(town, Simulation(town).model)
 
 
 def _apart(listing: Callable[[], list[dict[str, object]]]) -> Answer:

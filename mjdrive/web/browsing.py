@@ -48,7 +48,7 @@ class Shelf:
             UnknownNameError: If it is not in the list.
             DataError: If it is damaged.
         """
-        return store.read(self._path(name))
+        return store.read(self.file(name))
 
     def delete(self, name: str) -> None:
         """Delete a drive of `mjdrive drive` for good; demonstrations are parts of data sets and stay.
@@ -57,7 +57,7 @@ class Shelf:
             UnknownNameError: If it is not in the list.
             DataError: If it is part of a data set.
         """
-        path = self._path(name)
+        path = self.file(name)
         if not name.startswith("drives/"):
             raise DataError(
                 f"'{name}' is part of a data set, whose manifest lists it; expected a drive."
@@ -76,7 +76,12 @@ class Shelf:
         found = sorted(self.drives.glob(f"**/{report.SUMMARY}"))[-MOST_LISTED:]
         return [it for it in map(_figures, found) if it is not None]
 
-    def _path(self, name: str) -> Path:
+    def file(self, name: str) -> Path:
+        """Find the file of an episode by its name in the list; paths are not names.
+
+        Raises:
+            UnknownNameError: If it is not in the list.
+        """
         paths = self._paths()
         if name not in paths:
             raise UnknownNameError("episode", name, (), hint="Load the list again.")
