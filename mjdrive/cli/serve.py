@@ -11,6 +11,14 @@ if TYPE_CHECKING:
     from mjdrive.web.guard import Access
 
 LOOPBACK_HOST = "127.0.0.1"
+ALL_HOSTS = ("0.0.0.0", "::")
+"""Every address of this machine, so that it is called by names of its own."""
+
+LONGEST_MESSAGE = 2**16
+"""Of a page [bytes]."""
+
+GRACE = 5
+"""Pages that have not closed so long after Ctrl-C are left [s]."""
 
 
 @click.command()
@@ -61,6 +69,13 @@ LOOPBACK_HOST = "127.0.0.1"
     help="Origin of a tunnel or proxy before this server, as https://host. May be given again.",
 )
 @click.option(
+    "--frame-ancestors",
+    "frames",
+    multiple=True,
+    metavar="URL",
+    help="Origin of a page, such as a notebook's, that may show this one in a frame. May be given again.",
+)
+@click.option(
     "--runs",
     default=Path("runs"),
     show_default=True,
@@ -90,6 +105,7 @@ def serve(
     port: int,
     token: str | None,
     origins: tuple[str, ...],
+    frames: tuple[str, ...],
     runs: Path,
     drives: Path,
     data: Path,
@@ -104,9 +120,10 @@ def serve(
             error.name or "uvicorn", wanted_for="`mjdrive serve`", extra="web"
         ) from error
     from mjdrive.web.browsing import Shelf
+    from mjdrive.web.guard import LOOPBACK
     from mjdrive.web.session import Choice, Session
 
-    access = _access(host, token, origins)
+    access = _access(host, token, origins, frames)
     _require_free(host, port)
     session = Session(
         Choice(town_name, policy_name, seed),
@@ -115,19 +132,34 @@ def serve(
         on_progress=lambda line: click.echo(f"{line} ...", err=True),
     )
     app = make_app(session, shelf=Shelf(runs, drives, data), access=access)
-    address = f"http://{host}:{port}/" + (f"?token={access.token}" if access.token else "")
-    click.echo(f"Open {address} in a browser; Ctrl-C ends it.", err=True)
+    if host not in LOOPBACK:
+        click.echo(
+            "Other machines can reach this one, and whoever has the token drives. Traffic is not encrypted; an SSH tunnel is.",
+            err=True,
+        )
+    click.echo(f"Open {_address(host, port, access)} in a browser; Ctrl-C ends it.", err=True)
     uvicorn.run(
         app,
         host=host,
         port=port,
         log_level="warning",
-        ws_max_size=2**16,
+        ws_max_size=LONGEST_MESSAGE,
+        timeout_graceful_shutdown=GRACE,
         ws_per_message_deflate=False,
     )
 
 
-def _access(host: str, token: str | None, origins: tuple[str, ...]) -> "Access":
+def _address(host: str, port: int, access: "Access") -> str:
+    """What to open; a token is in it once, then in a cookie."""
+    import socket
+
+    name = socket.gethostname() if host in ALL_HOSTS else f"[{host}]" if ":" in host else host
+    return f"http://{name}:{port}/" + (f"?token={access.token}" if access.token else "")
+
+
+def _access(
+    host: str, token: str | None, origins: tuple[str, ...], frames: tuple[str, ...]
+) -> "Access":
     """Decide who may talk to the server.
 
     Raises:
@@ -142,14 +174,42 @@ def _access(host: str, token: str | None, origins: tuple[str, ...]) -> "Access":
             f"--host {host} lets other machines in; expected --token with it. Give --token auto, or reach this machine "
             f"through an SSH tunnel: ssh -L 8123:127.0.0.1:8123."
         )
-    bad = [it for it in origins if not it.startswith(("http://", "https://")) or it.count("/") != 2]
-    if bad:
-        raise ConfigError(
-            f"--allow-origin {bad[0]} is no origin; expected one as https://host or http://host:port."
-        )
+    for option, given in (("--allow-origin", origins), ("--frame-ancestors", frames)):
+        bad = [it for it in given if not _is_origin(it)]
+        if bad:
+            raise ConfigError(
+                f"{option} {bad[0]} is no origin; expected one as https://host or http://host:port."
+            )
     if token == "auto":
         token = secrets.token_urlsafe(16)
-    return Access(hosts=LOOPBACK | {host.lower()}, origins=frozenset(origins), token=token or "")
+    return Access(
+        hosts=LOOPBACK | _names(host),
+        origins=frozenset(origins),
+        token=token or "",
+        frames=frozenset(frames),
+    )
+
+
+def _is_origin(text: str) -> bool:
+    from urllib.parse import urlsplit
+
+    parts = urlsplit(text)
+    is_bare = text == f"{parts.scheme}://{parts.netloc}" and not set(text) & set(" ;,'\"*")
+    return is_bare and parts.scheme in ("http", "https") and bool(parts.hostname)
+
+
+def _names(host: str) -> frozenset[str]:
+    """What the server is called by, in lower case."""
+    import socket
+
+    if host not in ALL_HOSTS:
+        return frozenset({host.lower()})
+    own = socket.gethostname()
+    try:
+        name, others, addresses = socket.gethostbyname_ex(own)
+    except OSError:  # its name has no address: then it is called by --allow-origin or by that name
+        name, others, addresses = own, [], []
+    return frozenset(it.lower() for it in (own, name, *others, *addresses))
 
 
 def _require_free(host: str, port: int) -> None:

@@ -19,10 +19,9 @@ POLICY_VIOLATION = 1008
 
 CONTENT_POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
-    "connect-src 'self'; font-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    "connect-src 'self'; font-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors "
 )
 HEADERS = {
-    "content-security-policy": CONTENT_POLICY,
     "x-content-type-options": "nosniff",
     "referrer-policy": "no-referrer",
     "cross-origin-opener-policy": "same-origin",
@@ -38,11 +37,19 @@ class Access:
         hosts: Names that the server may be called by.
         origins: Other origins whose pages may talk to it, as "https://tunnel.example".
         token: What others must know; empty if nobody needs one.
+        frames: Origins of pages that may show ours in a frame, such as a notebook's.
     """
 
     hosts: frozenset[str] = LOOPBACK
     origins: frozenset[str] = frozenset()
     token: str = ""
+    frames: frozenset[str] = frozenset()
+
+    @property
+    def headers(self) -> dict[str, str]:
+        """What every answer carries."""
+        frames = " ".join(sorted(self.frames)) or "'none'"
+        return {"content-security-policy": CONTENT_POLICY + frames, **HEADERS}
 
     def refusal(self, headers: Mapping[str, str], query: str) -> str:
         """Why a request is refused; empty if it is not.
@@ -96,16 +103,17 @@ class Guard:
             key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]
         }
         query = scope["query_string"].decode("latin-1")
+        safe = self._access.headers
         refusal = self._access.refusal(headers, query)
         if refusal and scope["type"] == "websocket":
             return await send({"type": "websocket.close", "code": POLICY_VIOLATION})
         if refusal:
-            return await PlainTextResponse(refusal, 403, HEADERS)(scope, receive, send)
+            return await PlainTextResponse(refusal, 403, safe)(scope, receive, send)
         cookies = [self._new_cookie()] if self._access.token and "token=" in query else []
 
         async def send_safely(message: Message) -> None:
             if message["type"] == "http.response.start":
-                message["headers"] = [*message["headers"], *_encoded(HEADERS.items()), *cookies]
+                message["headers"] = [*message["headers"], *_encoded(safe.items()), *cookies]
             await send(message)
 
         return await self._app(scope, receive, send_safely)

@@ -191,12 +191,13 @@ class Session:
     def _loaded(self, choice: Choice) -> tuple[Simulation, Mind]:
         """Simulation and policy of a choice; what is there already is kept."""
         before = getattr(self, "simulation", None)
-        if before is not None and choice.town == before.town.name:
-            simulation = before
-        else:
-            self.on_progress(f"Building {choice.town}")
-            simulation = Simulation(library.load(choice.town))
+        town = library.load(choice.town)
         if before is not None and choice.policy == self.choice.policy:
-            return simulation, self.mind
-        self.on_progress(f"Loading {choice.policy}")
-        return simulation, load_mind(choice.policy, self.runs)
+            mind = self.mind
+        else:
+            self.on_progress(f"Loading {choice.policy}")
+            mind = load_mind(choice.policy, self.runs)
+        if before is not None and town.digest == before.town.digest:
+            return before, mind
+        self.on_progress(f"Building {choice.town}")  # takes seconds: what is refused comes before
+        return Simulation(town), mind

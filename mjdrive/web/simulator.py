@@ -103,6 +103,7 @@ class Simulator(threading.Thread):
             self._release(before)
             self._audience.note(f"{why} You are in control now.", to=roles.operator)
             self._audience.note(f"{why} Another page is in control now.", to=before)
+        self.cockpit.announce()
 
     def _obey(self, command: Command, who: object) -> None:
         if self.inbox.may(command, who):

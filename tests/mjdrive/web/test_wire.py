@@ -34,3 +34,16 @@ def test_every_blob_begins_where_the_page_can_look_at_it_in_place(name: str, siz
     places = json.loads(message[4 : 4 + length])["b"]
     assert (4 + length) % wire.ALIGNMENT == 0
     assert all(offset % wire.ALIGNMENT == 0 for _, _, offset in places.values())
+
+
+def test_a_deflated_view_is_the_same_view_in_a_tenth_of_the_bytes() -> None:
+    bev = np.zeros((5, 192, 192), np.uint8)
+    bev[0, 40:160, 80:110] = 255
+    lights = np.arange(3, dtype=np.uint8)
+    message = wire.pack("panel", {"tick": 7}, {"bev": bev, "lights": lights})
+    small = wire.deflated(message)
+    head, blobs = wire.unpack(small)
+    assert head == {"v": wire.VERSION, "k": "panel", "tick": 7}
+    np.testing.assert_array_equal(blobs["bev"], bev)
+    np.testing.assert_array_equal(blobs["lights"], lights)
+    assert 10 * len(small) < len(message)

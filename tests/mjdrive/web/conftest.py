@@ -1,0 +1,98 @@
+"""A session without network, and a simulator that is turned by hand, with an audience that notes what it is told."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mjdrive.web.commands import Command
+from mjdrive.web.pace import Pace
+from mjdrive.web.roles import Standing
+from mjdrive.web.session import Choice, Session
+from mjdrive.web.simulator import Simulator
+
+TOWN = "town03"
+
+
+class Notebook:
+    """Notes all that pages would be told."""
+
+    is_open = is_watching = True
+
+    def __init__(self) -> None:
+        self.told: list[tuple[str, bytes]] = []
+        self.lines: list[tuple[str, object | None]] = []
+        self.values: dict[str, Any] = {}
+        self.standing = Standing()
+
+    def tell(self, kind: str, message: bytes) -> None:
+        self.told.append((kind, message))
+
+    def tell_state(self, values: dict[str, Any], standing: Standing) -> None:
+        self.values, self.standing = values, standing
+
+    def note(self, line: str, *, is_error: bool = False, to: object | None = None) -> None:
+        del is_error
+        self.lines.append((line, to))
+
+    def heard(self, words: str, *, by: object | None = None) -> bool:
+        """Whether a line with these words was told to one, or to all."""
+        return any(words in line and to is by for line, to in self.lines)
+
+
+class Desk:
+    """A simulator, what it told, and pages that talk to it; it turns when it is asked to."""
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self.notebook = Notebook()
+        self.pace = Pace(sleep=lambda duration: None)
+        self.simulator = Simulator(session, self.notebook, self.pace)
+
+    def come(self, who: str) -> None:
+        self.simulator.inbox.come(who)
+        self.simulator.turn()
+
+    def leave(self, who: str) -> None:
+        self.simulator.inbox.leave(who)
+        self.simulator.turn()
+
+    def say(self, who: str, op: str, **values: Any) -> None:
+        assert self.simulator.inbox.put(Command(op, values), who)
+        self.simulator.turn()
+
+    def turn(self, count: int) -> None:
+        for _ in range(count):
+            self.simulator.turn()
+
+    @property
+    def kept(self) -> list[Path]:
+        """What was driven by hand, on the disk."""
+        return sorted(self.session.data.glob("**/human-*.hdf5"))
+
+
+@pytest.fixture(scope="session")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Session:
+    """One session for all: towns take seconds to build."""
+    folder = tmp_path_factory.mktemp("built")
+    return Session(Choice(TOWN, "pid", 0), runs=folder / "runs", data=folder / "data")
+
+
+@pytest.fixture
+def session(built: Session, tmp_path: Path) -> Iterator[Session]:
+    """The session as it was at the start, with folders of its own."""
+    mind, choice = built.mind, built.choice
+    built.runs, built.data = tmp_path / "runs", tmp_path / "data"
+    built.recording = None
+    built.on_progress = lambda line: None
+    built.reset()
+    yield built
+    built.mind, built.choice, built.recording = mind, choice, None
+
+
+@pytest.fixture
+def desk(session: Session) -> Desk:
+    desk = Desk(session)
+    desk.come("first")
+    return desk
