@@ -26,7 +26,9 @@ export class View {
 
   /** Throws where there is no WebGL. */
   constructor(private readonly canvas: HTMLCanvasElement, antialias: boolean) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias, powerPreference: "high-performance" });
+    const context = canvas.getContext("webgl2", { antialias, powerPreference: "high-performance" });
+    if (!context) throw new Error("There is no WebGL here.");
+    this.renderer = new THREE.WebGLRenderer({ canvas, context });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.cameras = new Cameras(canvas);
     this.scene.background = new THREE.Color(SKY);

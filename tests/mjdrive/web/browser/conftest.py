@@ -1,0 +1,238 @@
+"""One server and one Chromium for all tests of a process; what the server says is the truth that the page is held to."""
+
+import json
+import shutil
+import socket
+import subprocess
+import sys
+import threading
+import time
+import urllib.request
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from shutil import which
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from mjdrive.datatypes import Episode, Infraction, InfractionKind
+from mjdrive.episodes import store
+from mjdrive.vehicle import cars
+from mjdrive.vehicle.assembly import car_on_road
+from mjdrive.vehicle.car import Car
+from mjdrive.web import wire
+from mjdrive.zoo import entries
+
+CHROMIUM = which("chromium") or which("chromium-browser") or which("google-chrome")
+FLAGS = [
+    "--no-sandbox",
+    "--disable-dev-shm-usage",  # small in containers
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-gpu-compositing",  # compositing the page in software, too, is four times slower
+]
+PATIENCE = 90.0
+"""On a machine that is busy with other things [s]."""
+
+KEPT_IN_STEP = ("collisions", "kerb_strikes", "road_departures", "wrong_ways", "standstills")
+
+
+def wait(condition: Callable[[], Any], what: str) -> Any:
+    end = time.monotonic() + PATIENCE
+    while not (found := condition()):
+        assert time.monotonic() < end, f"waited in vain for {what}"
+        time.sleep(0.02)
+    return found
+
+
+class Watcher:
+    """Another client of the server, without a browser."""
+
+    def __init__(self, address: str) -> None:
+        client = pytest.importorskip("websockets.sync.client")
+        self.state: dict[str, Any] = {}
+        self.pose: dict[str, Any] = {}
+        self.panel: dict[str, Any] = {}
+        self._socket = client.connect(address.replace("http", "ws") + "ws", max_size=None)
+        self._thread = threading.Thread(target=self._listen)
+        self._thread.start()
+
+    def _listen(self) -> None:
+        count = 0
+        for message in self._socket:
+            if isinstance(message, str):
+                told = json.loads(message)
+                self.state = told if told["k"] == "state" else self.state
+                continue
+            count += 1
+            self._socket.send(json.dumps({"op": "ack", "n": count}))
+            head, _ = wire.unpack(message)
+            if head["k"] in ("pose", "panel"):
+                setattr(self, head["k"], head)
+
+    def close(self) -> None:
+        self._socket.close()
+        self._thread.join()
+
+    def until(self, **values: Any) -> None:
+        """Wait until the state of the server has these values."""
+        wait(lambda: values.items() <= self.state.items(), f"{values}")
+
+
+class Bench:
+    """A page, the server that it shows, and a watcher who knows what the server says."""
+
+    wait = staticmethod(wait)
+
+    def __init__(self, browser: Any, address: str, folder: Path) -> None:
+        self.browser, self.address, self.folder = browser, address, folder
+        self.problems: list[str] = []
+        self.foreign: list[str] = []
+        self.page = self.open("&noaa", width=700, height=500)
+        self.see("mjdrive.live.panels > 0")
+        self.watcher = Watcher(address)
+
+    def open(
+        self, query: str = "", *, width: int = 500, height: int = 400, script: str = ""
+    ) -> Any:
+        """Open another page, and wait until the server has told it who it is."""
+        # wait_for_function polls with eval, which the page's own policy forbids; another test holds that policy.
+        page = self.browser.new_page(viewport={"width": width, "height": height}, bypass_csp=True)
+        page.set_default_timeout(1000 * PATIENCE)
+        page.on("pageerror", lambda error: self.problems.append(str(error)))
+        page.on("console", lambda it: it.type == "error" and self.problems.append(it.text))
+        page.on(
+            "request", lambda it: it.url.startswith(self.address) or self.foreign.append(it.url)
+        )
+        page.on("dialog", lambda it: it.accept())
+        page.add_init_script(script)
+        page.goto(f"{self.address}?{query}")
+        page.wait_for_function("window.mjdrive?.state()", polling=100)
+        return page
+
+    def see(self, condition: str) -> None:
+        """Wait until something holds in the page."""
+        self.page.wait_for_function(condition, polling=100)
+
+    def reset(self) -> None:
+        """The live tab, nobody at the wheel, the expert drives."""
+        self.page.keyboard.press("1")
+        if self.page.evaluate("mjdrive.replay.isOpen"):
+            self.page.click("text=Back to live")
+        if self.watcher.state["driver"]:
+            self.page.click("#wheel")
+            self.watcher.until(driver=0)
+        if self.watcher.state["paused"]:
+            self.page.click("#pause")
+            self.watcher.until(paused=False)
+        if self.watcher.state["policy"] != "pid":
+            self.page.select_option("#policy", "pid")
+            self.watcher.until(policy="pid")
+
+    def take_the_wheel(self) -> None:
+        self.page.click("#wheel")
+        self.watcher.until(driver=self.page.evaluate("mjdrive.state().you"))
+
+
+def an_episode(steps: int = 60) -> Episode:
+    """Straight on along x at 10 m/s, with an infraction after two seconds."""
+    model = car_on_road(timestep=0.005, car=cars.load(cars.DEFAULT).path).compile()
+    physics = Car(model, mujoco.MjData(model)).save()
+    vehicle = np.zeros((steps, 6))
+    vehicle[:, 0], vehicle[:, 3] = np.arange(steps), 10.0
+    actions = np.tile([0.5, -0.25], (steps, 1))
+    return Episode(
+        town="town03",
+        policy="searcher",
+        seed=7,
+        light_phase=0.0,
+        time=0.1 * np.arange(steps),
+        physics=np.tile(physics, (steps, 1)),
+        vehicle=vehicle,
+        actions=actions,
+        labels=actions,
+        on_lane=np.ones(steps, bool),
+        infractions=(Infraction(InfractionKind.KERB, 2.0, 20.0, 0.0, "kerb/1"),),
+        metadata={},
+    )
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where the server is started: a run whose policy searches in three iterations, and two drives of it."""
+    folder = tmp_path_factory.mktemp("serve")
+    run = folder / "runs" / "searcher"
+    shutil.copytree(entries.find("zoo:da-ibc"), run)
+    settings = json.loads((run / "config.json").read_text())
+    settings["sampler"]["kind"] = "dfo"
+    settings["sampler"]["dfo"] |= {"num_samples": 96, "iterations": 3}
+    (run / "config.json").write_text(json.dumps(settings))
+    epochs = [
+        {"epoch": n, "loss": 1 / n, "validation_loss": 2 / n, "duration_s": 60} for n in (1, 2, 3)
+    ]
+    (run / "metrics.jsonl").write_text("\n".join(map(json.dumps, epochs)))
+    for number, distance in enumerate((100.0, 300.0)):
+        drive = folder / "drives" / f"drive-{number}"
+        drive.mkdir(parents=True)
+        store.write(an_episode(), drive / "episode.hdf5")
+        figures = {"distance_m": distance, "score": distance, "red_lights": number}
+        others = {"policy": "searcher", "town": "town03", **dict.fromkeys(KEPT_IN_STEP, 0)}
+        (drive / "summary.json").write_text(json.dumps(figures | others))
+    return folder
+
+
+@pytest.fixture(scope="session")
+def address(folder: Path) -> Iterator[str]:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    command = [sys.executable, "-m", "mjdrive", "serve", "--town", "town03", "--policy", "pid"]
+    url = f"http://127.0.0.1:{port}/"
+
+    def answers() -> bool:
+        assert server.poll() is None, "the server has ended"
+        try:
+            urllib.request.urlopen(url, timeout=5).close()
+        except OSError:
+            return False
+        return True
+
+    with subprocess.Popen([*command, "--port", str(port)], cwd=folder) as server:
+        try:
+            wait(answers, "the server")
+            yield url
+        finally:
+            server.terminate()
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Any]:
+    if CHROMIUM is None:
+        pytest.skip("no Chromium on this machine")  # in CI a skipped test is a failed one
+    engine = pytest.importorskip("playwright.sync_api")
+    with engine.sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(
+            executable_path=CHROMIUM, args=FLAGS, timeout=1000 * PATIENCE
+        )
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture(scope="session")
+def opened(browser: Any, address: str, folder: Path) -> Iterator[Bench]:
+    bench = Bench(browser, address, folder)
+    yield bench
+    bench.watcher.close()
+
+
+@pytest.fixture
+def bench(opened: Bench) -> Bench:
+    opened.reset()
+    return opened
