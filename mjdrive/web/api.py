@@ -38,6 +38,7 @@ class Api:
     def routes(self) -> list[Route]:
         """Say which address answers what; what changes anything must be posted."""
         return [
+            Route("/api/health", self.health),
             Route("/api/catalogue", self.catalogue),
             Route("/api/scene", self.scene),
             Route("/api/episodes", _apart(self._shelf.episodes)),
@@ -48,6 +49,13 @@ class Api:
             Route("/api/episode/file", self.file),
             Route("/api/episode/delete", self.delete, methods=["POST"]),
         ]
+
+    async def health(self, request: Request) -> Response:
+        """Whether it drives, and how far it has come: for scripts and benchmarks."""
+        del request
+        cockpit = self._simulator.cockpit
+        values = {"steps": cockpit.num_steps, "paused": cockpit.is_paused, "fault": cockpit.fault}
+        return JSONResponse({"v": wire.VERSION, **values})
 
     async def catalogue(self, request: Request) -> Response:
         """Towns and policies that can be chosen."""

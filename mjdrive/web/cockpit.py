@@ -24,11 +24,13 @@ class Cockpit:
     Attributes:
         is_paused: Whether it waits.
         fault: Why the drive stopped; empty if it did not.
+        num_steps: Control steps since the beginning, whatever was reset [-].
     """
 
     def __init__(self, session: Session, audience: Audience, inbox: Inbox, pace: Pace) -> None:
         self.is_paused = False
         self.fault = ""
+        self.num_steps = 0
         self._session, self._audience, self._inbox, self._pace = session, audience, inbox, pace
         self._tell = Narrator(session, audience, pace)
         self._decision: Decision | None = None
@@ -139,6 +141,7 @@ class Cockpit:
             self.begin_anew()
             return
         self._decision = None
+        self.num_steps += 1
         self._steps_left = max(self._steps_left - 1, 0)
         grows = self._session.recording is not None and self._tell.is_state_due
         if found or grows or self.is_paused:

@@ -1,10 +1,13 @@
 """A session without network, and a simulator that is turned by hand, with an audience that notes what it is told."""
 
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from hatchling.builders.wheel import WheelBuilder
 
 from mjdrive.web.commands import Command
 from mjdrive.web.pace import Pace
@@ -12,6 +15,7 @@ from mjdrive.web.roles import Standing
 from mjdrive.web.session import Choice, Session
 from mjdrive.web.simulator import Simulator
 
+ROOT = Path(__file__).resolve().parents[3]
 TOWN = "town03"
 
 
@@ -96,3 +100,14 @@ def desk(session: Session) -> Desk:
     desk = Desk(session)
     desk.come("first")
     return desk
+
+
+@pytest.fixture(scope="session")
+def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the installed wheel, to be put first in PYTHONPATH."""
+    folder = tmp_path_factory.mktemp("installed")
+    (wheel,) = WheelBuilder(str(ROOT)).build(directory=str(folder), versions=["standard"])
+    command = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index"]
+    command += ["--disable-pip-version-check", "--target", str(folder / "site"), wheel]
+    subprocess.run(command, check=True)
+    return folder / "site"

@@ -32,18 +32,6 @@ def shelf(session: Session, tmp_path: Path) -> Shelf:
 
 
 @pytest.fixture
-def client(session: Session, shelf: Shelf, tmp_path: Path) -> Iterator[TestClient]:
-    page = tmp_path / "page"
-    page.mkdir()
-    (page / "index.html").write_text("the page")
-    (tmp_path / "secret.txt").write_text("secret")
-    access = Access(hosts=LOOPBACK | {"testserver"})  # as the client calls it from a socket
-    app = server.make_app(session, shelf=shelf, access=access, page=page)
-    with TestClient(app, base_url=HOME, raise_server_exceptions=False) as found:
-        yield found
-
-
-@pytest.fixture
 def drive(session: Session, shelf: Shelf) -> Path:
     """An episode of `mjdrive drive`."""
     session.begin_recording()
@@ -55,6 +43,19 @@ def drive(session: Session, shelf: Shelf) -> Path:
     store.write(session.recording.episode(), path)
     session.recording = None
     return path
+
+
+@pytest.fixture
+def client(session: Session, shelf: Shelf, drive: Path, tmp_path: Path) -> Iterator[TestClient]:
+    assert drive.is_file()  # it was driven before another thread owns the session
+    page = tmp_path / "page"
+    page.mkdir()
+    (page / "index.html").write_text("the page")
+    (tmp_path / "secret.txt").write_text("secret")
+    access = Access(hosts=LOOPBACK | {"testserver"})  # as the client calls it from a socket
+    app = server.make_app(session, shelf=shelf, access=access, page=page)
+    with TestClient(app, base_url=HOME, raise_server_exceptions=False) as found:
+        yield found
 
 
 def until(
