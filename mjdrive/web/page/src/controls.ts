@@ -24,7 +24,8 @@ export class Controls {
     $("pause").onclick = () => this.pause();
     $("step").onclick = () => this.step();
     $("reset").onclick = () => this.reset();
-    $("wheel").onclick = () => { this.wheel(); $("gl").focus(); };
+    // Not left focused: Enter would press it again instead of keeping the recording.
+    $("wheel").onclick = () => { this.wheel(); $("wheel").blur(); $("gl").focus(); };
     $("keep").onclick = () => this.keep();
     $("drop").onclick = () => this.drop();
     $("controls").onsubmit = (event) => event.preventDefault();

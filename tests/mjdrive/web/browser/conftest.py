@@ -26,22 +26,21 @@ from mjdrive.web import wire
 from mjdrive.zoo import entries
 
 CHROMIUM = which("chromium") or which("chromium-browser") or which("google-chrome")
-FLAGS = [
-    "--no-sandbox",
-    "--disable-dev-shm-usage",  # small in containers
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--disable-gpu-compositing",  # compositing the page in software, too, is four times slower
-]
-PATIENCE = 90.0
-"""On a machine that is busy with other things [s]."""
+FLAGS = [f"--disable-{it}" for it in ("dev-shm-usage", "quic", "component-update", "sync")]
+FLAGS += ["--no-sandbox", "--no-first-run", "--disable-background-networking"]
+# Compositing the page in software, too, would be four times slower.
+FLAGS += ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing"]
+PATIENCE = 240.0
+"""On a machine that is busy with many other things [s]."""
 
-KEPT_IN_STEP = ("collisions", "kerb_strikes", "road_departures", "wrong_ways", "standstills")
+NO_WEBGL = """
+const context = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+  return kind.startsWith("webgl") ? null : context.call(this, kind, ...rest);
+};
+"""
+
+KEPT = ("collisions", "kerb_strikes", "road_departures", "wrong_ways", "standstills")
 
 
 def wait(condition: Callable[[], Any], what: str) -> Any:
@@ -60,9 +59,11 @@ class Watcher:
         self.state: dict[str, Any] = {}
         self.pose: dict[str, Any] = {}
         self.panel: dict[str, Any] = {}
+        self.num_panels = 0
         self._socket = client.connect(address.replace("http", "ws") + "ws", max_size=None)
         self._thread = threading.Thread(target=self._listen)
         self._thread.start()
+        wait(lambda: self.state and self.pose and self.panel, "the server's first words")
 
     def _listen(self) -> None:
         count = 0
@@ -76,10 +77,19 @@ class Watcher:
             head, _ = wire.unpack(message)
             if head["k"] in ("pose", "panel"):
                 setattr(self, head["k"], head)
+                self.num_panels += head["k"] == "panel"
 
     def close(self) -> None:
         self._socket.close()
         self._thread.join()
+
+    def pause(self) -> dict[str, Any]:
+        """Wait until the drive is paused, and say what it would do next."""
+        self.until(paused=True)
+        before = self.num_panels
+        self._socket.send(json.dumps({"op": "watch"}))
+        wait(lambda: self.num_panels > before, "the decision that is paused at")
+        return self.panel
 
     def until(self, **values: Any) -> None:
         """Wait until the state of the server has these values."""
@@ -95,14 +105,17 @@ class Bench:
         self.browser, self.address, self.folder = browser, address, folder
         self.problems: list[str] = []
         self.foreign: list[str] = []
-        self.page = self.open("&noaa", width=700, height=500)
+        self.page = self.open(width=700, height=600)
         self.see("mjdrive.live.panels > 0")
         self.watcher = Watcher(address)
 
     def open(
-        self, query: str = "", *, width: int = 500, height: int = 400, script: str = ""
+        self, query: str = "", *, width: int = 500, height: int = 400, webgl: bool = False
     ) -> Any:
-        """Open another page, and wait until the server has told it who it is."""
+        """Open another page, and wait until the server has told it who it is.
+
+        Without WebGL unless a test is about the 3D view: drawn in software, that takes all there is of a small machine.
+        """
         # wait_for_function polls with eval, which the page's own policy forbids; another test holds that policy.
         page = self.browser.new_page(viewport={"width": width, "height": height}, bypass_csp=True)
         page.set_default_timeout(1000 * PATIENCE)
@@ -112,8 +125,9 @@ class Bench:
             "request", lambda it: it.url.startswith(self.address) or self.foreign.append(it.url)
         )
         page.on("dialog", lambda it: it.accept())
-        page.add_init_script(script)
-        page.goto(f"{self.address}?{query}")
+        if not webgl:
+            page.add_init_script(NO_WEBGL)
+        page.goto(f"{self.address}?noaa&{query}")
         page.wait_for_function("window.mjdrive?.state()", polling=100)
         return page
 
@@ -183,7 +197,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         drive.mkdir(parents=True)
         store.write(an_episode(), drive / "episode.hdf5")
         figures = {"distance_m": distance, "score": distance, "red_lights": number}
-        others = {"policy": "searcher", "town": "town03", **dict.fromkeys(KEPT_IN_STEP, 0)}
+        others = {"policy": "searcher", "town": "town03", **dict.fromkeys(KEPT, 0)}
         (drive / "summary.json").write_text(json.dumps(figures | others))
     return folder
 

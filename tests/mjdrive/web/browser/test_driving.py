@@ -8,7 +8,7 @@ import pytest
 
 from mjdrive.episodes import store
 
-pytestmark = pytest.mark.timeout(400)
+pytestmark = pytest.mark.timeout(900)
 
 BLOCK = "ms => { const end = performance.now() + ms; while (performance.now() < end); }"
 PAD = """
@@ -45,21 +45,23 @@ def test_two_keys_are_held_at_once(bench: Any) -> None:
 
 
 def test_a_busy_page_does_not_chop_what_is_held(bench: Any) -> None:
-    before = demonstrations(bench)
     bench.take_the_wheel()
+    before = demonstrations(bench)
     bench.page.keyboard.down("ArrowUp")
     bench.wait(lambda: bench.watcher.pose["action"][0] == 1.0, "full throttle")
+    enough = bench.watcher.state["recorded"] + 30
     for _ in range(3):
         bench.page.evaluate(BLOCK, 1200)  # more than twice what the server waits for
+    while bench.watcher.state["recorded"] < enough:
+        bench.page.evaluate(BLOCK, 1200)
     bench.page.keyboard.up("ArrowUp")
     bench.page.keyboard.press("t")
     bench.watcher.until(driver=0)
-    if bench.watcher.state["recorded"]:
-        bench.page.click("#keep")
+    bench.page.click("#keep")
     (kept,) = bench.wait(lambda: set(demonstrations(bench)) - set(before), "the recording")
     throttle = store.read(kept).actions[:, 0]
     full = np.flatnonzero(throttle == 1.0)
-    assert len(full) > 10
+    assert len(full) > 30
     assert np.all(throttle[full[0] : full[-1] + 1] == 1.0)
 
 
@@ -67,7 +69,7 @@ def test_a_page_that_hangs_lets_go(bench: Any) -> None:
     bench.take_the_wheel()
     bench.page.keyboard.down("ArrowUp")
     bench.wait(lambda: bench.watcher.pose["action"][0] == 1.0, "full throttle")
-    bench.page.evaluate(f"void setTimeout(() => ({BLOCK})(8000)) || (window.isBack = false)")
+    bench.page.evaluate(f"() => {{ setTimeout(() => ({BLOCK})(8000)); }}")
     bench.wait(lambda: bench.watcher.pose["action"][0] == 0.0, "the pedal to come up")
     bench.page.keyboard.up("ArrowUp")
 
@@ -83,8 +85,8 @@ def test_losing_the_focus_gives_the_wheel_back(bench: Any) -> None:
 
 
 def test_what_is_driven_is_kept_as_a_demonstration(bench: Any) -> None:
-    before = demonstrations(bench)
     bench.take_the_wheel()
+    before = demonstrations(bench)
     bench.page.keyboard.down("ArrowUp")
     bench.wait(lambda: bench.watcher.state["recorded"] > 15, "some steps")
     bench.page.keyboard.up("ArrowUp")
@@ -105,7 +107,7 @@ def test_a_gamepad_drives(bench: Any) -> None:
 
 def test_another_page_watches_until_it_is_given_control(bench: Any) -> None:
     mine = bench.page.evaluate("mjdrive.state().you")
-    other = bench.open("noaa&tab=runs")
+    other = bench.open("tab=runs")
     theirs = other.evaluate("mjdrive.state().you")
     assert bench.watcher.state["operator"] == mine
     assert other.evaluate(
@@ -115,7 +117,7 @@ def test_another_page_watches_until_it_is_given_control(bench: Any) -> None:
     bench.page.click("text=Hand over")
     bench.watcher.until(operator=theirs)
     other.wait_for_function("!document.querySelector('#wheel').disabled", polling=100)
+    bench.page.click("text=Ask for control")
+    other.click("text=Hand over")
+    bench.watcher.until(operator=mine)
     other.close()
-    while bench.watcher.state["operator"] != mine:
-        bench.page.click("text=Ask for control")
-        bench.watcher.until(operator=mine)

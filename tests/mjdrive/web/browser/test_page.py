@@ -4,14 +4,8 @@ from typing import Any
 
 import pytest
 
-pytestmark = pytest.mark.timeout(400)
+pytestmark = pytest.mark.timeout(900)
 
-NO_WEBGL = """
-const context = HTMLCanvasElement.prototype.getContext;
-HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
-  return kind.startsWith("webgl") ? null : context.call(this, kind, ...rest);
-};
-"""
 NAMELESS = """
 [...document.querySelectorAll("button, select, input, canvas, [role=radiogroup], dialog[open]")]
   .filter(it => it.checkVisibility())
@@ -53,7 +47,7 @@ def test_the_content_policy_stops_foreign_code(browser: Any, address: str) -> No
 
 
 def test_without_webgl_the_panels_still_work(bench: Any) -> None:
-    plain = bench.open(script=NO_WEBGL, width=900, height=700)
+    plain = bench.open(width=900, height=700)
     plain.wait_for_function("mjdrive.live.panels > 1", polling=100)
     assert plain.locator("#no-gl").is_visible()
     assert plain.locator("#bev").bounding_box()["height"] > 100
@@ -71,7 +65,7 @@ def test_keys_open_the_help(bench: Any) -> None:
 
 @pytest.mark.parametrize("tab", ["live", "episodes", "runs"])
 def test_everything_has_a_name_and_fits_on_small_screens(bench: Any, tab: str) -> None:
-    page = bench.open(f"tab={tab}", script=NO_WEBGL, width=1100, height=700)
+    page = bench.open(f"tab={tab}", width=1100, height=700)
     if tab != "live":
         page.wait_for_selector(f"#{tab} table")
     assert page.evaluate(NAMELESS) == []
