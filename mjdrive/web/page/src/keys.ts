@@ -33,7 +33,6 @@ export class Keys {
   setDriving(on: boolean): void {
     if (this.isDriving && !on) this.driver.hold(null);
     this.isDriving = on;
-    if (!on) this.held.clear();
   }
 
   private letGo(): void {
@@ -47,9 +46,10 @@ export class Keys {
     const target = event.target as HTMLElement, name = event.key === " " ? "Space" : event.key;
     if (event.defaultPrevented || target.closest("input, select, textarea, dialog[open]") || event.ctrlKey || event.metaKey || event.altKey) return;
     const key = DRIVE[event.code];
+    if (key) this.held.add(key); // also before the wheel has come: whoever asks for it presses the next key at once
     if (key && this.isDriving) {
       event.preventDefault();
-      if (!event.repeat && !this.held.has(key)) { this.held.add(key); this.say(); }
+      if (!event.repeat) this.say();
       return;
     }
     const shortcut = shortcuts[name.length === 1 ? name.toLowerCase() : name];

@@ -16,6 +16,7 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
+from websockets.sync.client import connect
 
 from mjdrive.datatypes import Episode, Infraction, InfractionKind
 from mjdrive.episodes import store
@@ -30,7 +31,7 @@ FLAGS = [f"--disable-{it}" for it in ("dev-shm-usage", "quic", "component-update
 FLAGS += ["--no-sandbox", "--no-first-run", "--disable-background-networking"]
 # Compositing the page in software, too, would be four times slower.
 FLAGS += ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing"]
-PATIENCE = 240.0
+PATIENCE = 120.0
 """On a machine that is busy with many other things [s]."""
 
 NO_WEBGL = """
@@ -55,29 +56,30 @@ class Watcher:
     """Another client of the server, without a browser."""
 
     def __init__(self, address: str) -> None:
-        client = pytest.importorskip("websockets.sync.client")
         self.state: dict[str, Any] = {}
         self.pose: dict[str, Any] = {}
         self.panel: dict[str, Any] = {}
         self.num_panels = 0
-        self._socket = client.connect(address.replace("http", "ws") + "ws", max_size=None)
-        self._thread = threading.Thread(target=self._listen)
+        self._thread = threading.Thread(target=self._listen, args=(address,))
         self._thread.start()
         wait(lambda: self.state and self.pose and self.panel, "the server's first words")
 
-    def _listen(self) -> None:
-        count = 0
-        for message in self._socket:
-            if isinstance(message, str):
-                told = json.loads(message)
-                self.state = told if told["k"] == "state" else self.state
-                continue
-            count += 1
-            self._socket.send(json.dumps({"op": "ack", "n": count}))
-            head, _ = wire.unpack(message)
-            if head["k"] in ("pose", "panel"):
-                setattr(self, head["k"], head)
-                self.num_panels += head["k"] == "panel"
+    def _listen(self, address: str) -> None:
+        with connect(address.replace("http", "ws") + "ws", max_size=None) as self._socket:
+            for count, message in enumerate(filter(self._hear, self._socket), 1):
+                self._socket.send(json.dumps({"op": "ack", "n": count}))
+                head, _ = wire.unpack(message)
+                if head["k"] in ("pose", "panel"):
+                    setattr(self, head["k"], head)
+                    self.num_panels += head["k"] == "panel"
+
+    def _hear(self, message: str | bytes) -> bool:
+        """Note a text message; whether this is a binary one."""
+        if isinstance(message, bytes):
+            return True
+        told = json.loads(message)
+        self.state = told if told["k"] == "state" else self.state
+        return False
 
     def close(self) -> None:
         self._socket.close()
