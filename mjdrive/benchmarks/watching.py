@@ -14,7 +14,7 @@ import time
 import urllib.request
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from mjdrive.benchmarks.comparison import Comparison, Plan, Reads, Row
 from mjdrive.errors import MissingPackageError, WorkerError
@@ -37,6 +37,30 @@ PATIENCE = 120.0
 """For the server to start [s]."""
 
 
+class Progress(NamedTuple):
+    """How far a simulator has come.
+
+    Attributes:
+        steps: Control steps [-].
+        busy: Processor time of its thread [s].
+    """
+
+    steps: int
+    busy: float
+
+
+class StepTime(NamedTuple):
+    """What a control step takes.
+
+    Attributes:
+        wall: By the clock on the wall [s].
+        busy: Of the processor [s].
+    """
+
+    wall: float
+    busy: float
+
+
 def measure(plan: Plan) -> tuple[Row, ...]:
     """Drive without pages, with one and with eight, in turns.
 
@@ -48,72 +72,81 @@ def measure(plan: Plan) -> tuple[Row, ...]:
         WorkerError: If the server does not start.
     """
     duration = QUICK_SECONDS if plan.quick else SECONDS
-    taken: dict[int, list[float]] = {0: [], 1: [], 8: []}
+    taken: dict[int, list[StepTime]] = {0: [], 1: [], 8: []}
     with served(plan.workspace) as address:
         with watched(address, 1) as (page,):
             page.send(json.dumps({"op": "speed", "factor": FASTEST}))
             time.sleep(SETTLING)  # only a page that is still there is obeyed
         for number in range(plan.rounds(ROUNDS) + 1):
-            for count, seconds in taken.items():
+            for count, rounds in taken.items():
                 plan.on_stage(f"{count} pages")
                 with watched(address, count):
                     time.sleep(SETTLING)
-                    found = seconds_a_step(lambda: _steps(address), duration)
+                    found = step_time(lambda: _progress(address), duration)
                 if number:  # the first round warms up
-                    seconds.append(found)
-    return tuple(_row(count, taken) for count in (1, 8))
+                    rounds.append(found)
+    return tuple(
+        _row(count, is_wall=is_wall, ours=taken[count], theirs=taken[0])
+        for is_wall in (False, True)
+        for count in (1, 8)
+    )
 
 
-def seconds_a_step(
-    steps: Callable[[], int],
+def step_time(
+    progress: Callable[[], Progress],
     duration: float,
     *,
     clock: Callable[[], float] = time.perf_counter,
     sleep: Callable[[float], None] = time.sleep,
-) -> float:
+) -> StepTime:
     """Time control steps that somebody else takes.
 
     Args:
-        steps: Tells how many have been taken.
+        progress: Tells how far they have come.
         duration: How long to watch [s].
         clock: Tells the time [s].
         sleep: Waits so long [s].
 
     Returns:
-        What one takes [s].
+        What one takes.
 
     Raises:
         WorkerError: If there was none.
     """
-    first, begin = steps(), clock()
+    first, begin = progress(), clock()
     sleep(duration)
-    last, end = steps(), clock()
-    if last == first:
+    last, end = progress(), clock()
+    steps = last.steps - first.steps
+    if not steps:
         raise WorkerError(
             f"The server took no control step in {end - begin:.0f} s; expected some. Close other programs."
         )
-    return (end - begin) / (last - first)
+    return StepTime((end - begin) / steps, (last.busy - first.busy) / steps)
 
 
-def _row(count: int, taken: dict[int, list[float]]) -> Comparison:
-    pages = "a page watches" if count == 1 else f"{count} pages watch"
+def _row(count: int, *, is_wall: bool, ours: list[StepTime], theirs: list[StepTime]) -> Comparison:
+    if is_wall:
+        note = "Wall time, so it counts what pages and server take of the machine besides; only a quiet machine tells it."
+    else:
+        note = "Processor time of the thread that drives: what it does for pages."
     return Comparison(
-        name=f"serving {count}",
+        name=f"serving {count}" + (", wall" if is_wall else ""),
         work=f"a control step of `mjdrive serve` in {TOWN}",
-        ours=pages,
+        ours="a page watches" if count == 1 else f"{count} pages watch",
         theirs="nobody watches",
-        our_rounds=tuple(taken[count]),
-        their_rounds=tuple(taken[0]),
+        our_rounds=tuple(it.wall if is_wall else it.busy for it in ours),
+        their_rounds=tuple(it.wall if is_wall else it.busy for it in theirs),
         bar=MOST,
         reads=Reads.COST,
         piece="control step",
-        note="Wall time; the policy that drives by default, as fast as it can; pages take all that is sent.",
+        note=f"{note} The policy that drives by default, as fast as it can; pages take all that is sent.",
     )
 
 
-def _steps(address: str) -> int:
+def _progress(address: str) -> Progress:
     with urllib.request.urlopen(f"http://{address}/api/health", timeout=PATIENCE) as answer:
-        return int(json.load(answer)["steps"])
+        found = json.load(answer)
+    return Progress(int(found["steps"]), float(found["busy"]))
 
 
 @contextlib.contextmanager
@@ -148,7 +181,7 @@ def _wait_for(address: str, server: "subprocess.Popen[bytes]", log: Any) -> None
     until = time.monotonic() + PATIENCE
     while time.monotonic() < until and server.poll() is None:
         try:
-            _steps(address)
+            _progress(address)
         except OSError:
             time.sleep(0.1)
         else:

@@ -54,8 +54,9 @@ class Api:
         """Whether it drives, and how far it has come: for scripts and benchmarks."""
         del request
         cockpit = self._simulator.cockpit
-        values = {"steps": cockpit.num_steps, "paused": cockpit.is_paused, "fault": cockpit.fault}
-        return JSONResponse({"v": wire.VERSION, **values})
+        done = {"steps": cockpit.num_steps, "busy": self._simulator.busy}
+        how = {"paused": cockpit.is_paused, "fault": cockpit.fault}
+        return JSONResponse({"v": wire.VERSION, **done, **how})
 
     async def catalogue(self, request: Request) -> Response:
         """Towns and policies that can be chosen."""

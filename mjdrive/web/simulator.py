@@ -5,6 +5,7 @@ Whatever fails, a policy, a disk or the physics, must not end it: the drive stop
 
 import logging
 import threading
+import time
 from typing import Any
 
 from mjdrive.datatypes import Action
@@ -32,6 +33,7 @@ class Simulator(threading.Thread):
         session: What is driven.
         inbox: What pages say, and who they are.
         cockpit: How it is driven.
+        busy: Processor time of the thread until its last turn [s].
     """
 
     def __init__(self, session: Session, audience: Audience, pace: Pace | None = None) -> None:
@@ -39,6 +41,7 @@ class Simulator(threading.Thread):
         self.session = session
         self.inbox = Inbox()
         self.cockpit = Cockpit(session, audience, self.inbox, pace or Pace())
+        self.busy = 0.0
         self._audience = audience
         self._is_ended = threading.Event()
         self._tell_terminal, session.on_progress = session.on_progress, audience.note
@@ -57,6 +60,7 @@ class Simulator(threading.Thread):
         """Obey and drive."""
         while not self._is_ended.is_set():
             self.turn()
+            self.busy = time.thread_time()
 
     def turn(self) -> None:
         """Obey what pages have said, and drive one step unless that is paused."""

@@ -20,20 +20,20 @@ class Time:
     def sleep(self, duration: float) -> None:
         self.now += duration
 
-    def steps(self) -> int:
-        return int(self.now / 0.02)
+    def progress(self) -> watching.Progress:
+        return watching.Progress(round(self.now / 0.02), 0.25 * self.now)
 
 
 def test_steps_that_somebody_else_takes_are_timed() -> None:
     time = Time()
-    found = watching.seconds_a_step(time.steps, 3.0, clock=time.clock, sleep=time.sleep)
-    assert found == pytest.approx(0.02)
+    found = watching.step_time(time.progress, 3.0, clock=time.clock, sleep=time.sleep)
+    assert found == pytest.approx((0.02, 0.005))
 
 
 def test_a_server_that_stands_still_is_no_figure() -> None:
-    time = Time()
+    time, still = Time(), watching.Progress(7, 1.0)
     with pytest.raises(WorkerError, match=r"no control step in 3 s; expected some"):
-        watching.seconds_a_step(lambda: 7, 3.0, clock=time.clock, sleep=time.sleep)
+        watching.step_time(lambda: still, 3.0, clock=time.clock, sleep=time.sleep)
 
 
 def test_a_server_that_does_not_start_is_a_row_with_its_words(
