@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import rich_click as click
 
 if TYPE_CHECKING:
-    from mjdrive.study.results import StudyResults
+    from mjdrive.study.records.results import StudyResults
 
 STUDIES = Path("studies")
 
@@ -96,7 +96,7 @@ def study(
     from mjdrive.cli.console import ended_by_sigterm, stage_bars
     from mjdrive.evaluation import report
     from mjdrive.execution.executors import executor_for
-    from mjdrive.study import overrides  # torch takes a second
+    from mjdrive.study.settings import overrides  # torch takes a second
     from mjdrive.study.study import Study
 
     config = overrides.chosen(
@@ -125,8 +125,9 @@ def study(
 def _close(results: "StudyResults", folder: Path, preset: str) -> None:
     """Say what there is to look at."""
     from mjdrive.cli.console import closing_table
-    from mjdrive.study import report, tables
-    from mjdrive.study import results as files
+    from mjdrive.study.records import results as files
+    from mjdrive.study.report import report
+    from mjdrive.study.tables import tables
 
     closing_table(
         f"Study, preset {preset}",

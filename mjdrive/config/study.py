@@ -82,6 +82,7 @@ class StudyConfig:
         arms: What drives.
         demonstrations: What is learnt from.
         references: Who drives beside the agents.
+        expert_walks: How often the expert drives from the same starts, with other random turns each time [-].
         seeds: Training seeds of the methods [-].
         ablation_seeds: Training seeds of the ablations, some of `seeds` [-].
         learning_town: Where demonstrations are collected.
@@ -106,6 +107,7 @@ class StudyConfig:
     arms: tuple[Arm, ...]
     demonstrations: tuple[Demonstrations, ...] = (Demonstrations("demonstrations"),)
     references: tuple[Reference, ...] = ("expert", "right-walker")
+    expert_walks: int = 5
     seeds: tuple[int, ...] = (0, 1, 2)
     ablation_seeds: tuple[int, ...] = (0,)
     learning_town: str = "town01"
@@ -128,7 +130,8 @@ class StudyConfig:
         self._check_names()
         for name in ("episodes", "steps", "progress_episodes", "progress_steps", "held_out_frames"):
             _check(self, name, getattr(self, name) >= 1, "at least 1")
-        _check(self, "threads", self.threads >= 1, "at least 1")
+        for name in ("threads", "expert_walks"):
+            _check(self, name, getattr(self, name) >= 1, "at least 1")
         for name in ("long_steps", "progress_every", "forks", "held_out_km"):
             _check(self, name, getattr(self, name) >= 0, "0 or more")
         _check(self, "fork_rollouts", self.fork_rollouts >= 1, "at least 1")

@@ -62,6 +62,7 @@ def drive_expert(
     on_step: Callable[[int], None] | None = None,
     on_late_solves: Callable[[int], None] | None = None,
     choose: Choose | None = None,
+    walk: int = 0,
     metadata: Mapping[str, str] | None = None,
 ) -> Episode:
     """Let an expert take random turns, from the place where `drive` starts with the same seed and steps.
@@ -76,6 +77,7 @@ def drive_expert(
         on_step: Told the number of control steps done.
         on_late_solves: Told at the end how many solves of the expert took long on this machine.
         choose: Chooses among the ways on instead of chance.
+        walk: Another number, other turns from the same start and under the same lights [-].
         metadata: Versions, digests and settings to keep with the episode.
 
     Returns:
@@ -90,12 +92,12 @@ def drive_expert(
     expert = expert_of(config, simulation)
     require_green(town.lights.values())
     lane, station = _start(simulation, config.pid, num_steps=num_steps, seed=seed)
-    walk = RandomWalk(
+    random_walk = RandomWalk(
         town,
         lane=lane,
         station=station,
         # Turns have a stream of their own, so that they do not hang on how a start is drawn.
-        rng=np.random.default_rng([seed, 1]),
+        rng=np.random.default_rng([seed, 1 + walk]),
         length=_way(simulation, config.pid, num_steps),
         choose=choose,
     )
@@ -104,7 +106,7 @@ def drive_expert(
     episode = rollout(
         simulation,
         expert,
-        FollowWalk(walk),
+        FollowWalk(random_walk),
         num_steps=num_steps,
         seed=seed,
         on_step=on_step,

@@ -12,14 +12,15 @@ from mjdrive.episodes import dataset
 from mjdrive.evaluation.branches import branches_taken
 from mjdrive.evaluation.choices import ChoiceStatistics, choice_statistics
 from mjdrive.evaluation.coverage import joined_coverage, reachable_lanes
-from mjdrive.study import driving, forks, judging, results
-from mjdrive.study.drive_records import DriveRecord
-from mjdrive.study.driving import DriveJob
-from mjdrive.study.forks import ForkRecord
-from mjdrive.study.judging import JudgeRecord
-from mjdrive.study.measures import Curve
+from mjdrive.study.jobs import driving, forks, judging
+from mjdrive.study.jobs.driving import DriveJob
+from mjdrive.study.jobs.forks import ForkRecord
+from mjdrive.study.jobs.judging import JudgeRecord
 from mjdrive.study.plan import ArmPlan, ProgressPlan
-from mjdrive.study.results import ArmResult, DataResult, ProgressPoint, StudyResults
+from mjdrive.study.records import results
+from mjdrive.study.records.drive_records import DriveRecord
+from mjdrive.study.records.measures import Curve
+from mjdrive.study.records.results import ArmResult, DataResult, ProgressPoint, StudyResults
 from mjdrive.town import library
 
 _DIGITS = 6
@@ -60,6 +61,10 @@ def assemble(
             _arm_result(plan, records, judged, town, config)
             for plan, records, judged in zip(arms, lived, asked, strict=True)
         ),
+        pooled={
+            name: _choices(taken, town, config)
+            for name, taken in _pooled([*references, *arms]).items()
+        },
         progress=tuple(_progress_point(plan) for plan in progress),
         turns=tuple(turn for records in lived for it in records for turn in it.turns),
         landscapes=tuple(
@@ -160,7 +165,7 @@ def _arm_result(
     return ArmResult(
         arm=plan.it.arm.name if plan.it is not None else str(plan.who.reference),
         variant=plan.it.agent.variant.name if plan.it is not None else "",
-        seed=plan.it.agent.seed if plan.it is not None else 0,
+        seed=plan.it.agent.seed if plan.it is not None else plan.who.walk,
         digest=plan.who.digest,
         drives=tuple(it.figures for it in drives),
         long_drive=long_drives[0].figures if long_drives else None,
@@ -184,6 +189,16 @@ def _progress_point(plan: ProgressPlan) -> ProgressPoint:
         loss=plan.loss,
         drives=tuple(_record(job).figures for job in plan.drives),
     )
+
+
+def _pooled(plans: Sequence[ArmPlan]) -> dict[str, Counter[str]]:
+    """How often all agents of each arm together drove each way in the drives of the tables."""
+    pooled: dict[str, Counter[str]] = {}
+    for plan in plans:
+        name = plan.it.arm.name if plan.it is not None else str(plan.who.reference)
+        taken = _taken([_record(job) for job in plan.drives])
+        pooled.setdefault(name, Counter()).update(taken)
+    return pooled
 
 
 def _taken(records: Sequence[DriveRecord]) -> Counter[str]:

@@ -6,13 +6,14 @@ from pathlib import Path
 from mjdrive.config import Reference, StudyConfig
 from mjdrive.datatypes import Town
 from mjdrive.evaluation.drives import plan_drives
-from mjdrive.study import checkpoints, drivers, results
-from mjdrive.study.agents import ArmAgent, agents, arm_agents, main_arm
-from mjdrive.study.drivers import Who
-from mjdrive.study.driving import DriveJob
-from mjdrive.study.folder import StudyFolder
-from mjdrive.study.forks import ForkJob, chosen_approaches
-from mjdrive.study.judging import JudgeJob
+from mjdrive.study.jobs import checkpoints, drivers
+from mjdrive.study.jobs.drivers import Who
+from mjdrive.study.jobs.driving import DriveJob
+from mjdrive.study.jobs.forks import ForkJob, chosen_approaches
+from mjdrive.study.jobs.judging import JudgeJob
+from mjdrive.study.records import results
+from mjdrive.study.records.folder import StudyFolder
+from mjdrive.study.settings.agents import ArmAgent, agents, arm_agents, main_arm
 from models.config import Precision
 
 LONG = "long"
@@ -68,7 +69,11 @@ class ProgressPlan:
 
 def plan_references(config: StudyConfig, folder: StudyFolder) -> tuple[ArmPlan, ...]:
     """What the references drive."""
-    return tuple(_plan_reference(name, config, folder) for name in config.references)
+    return tuple(
+        _plan_reference(name, walk, config, folder)
+        for name in config.references
+        for walk in range(config.expert_walks if name == "expert" else 1)
+    )
 
 
 def plan_arms(
@@ -133,13 +138,16 @@ def plan_progress(
     return tuple(found)
 
 
-def _plan_reference(name: Reference, config: StudyConfig, folder: StudyFolder) -> ArmPlan:
-    who = Who(f"{name}-0", reference=name)
+def _plan_reference(
+    name: Reference, walk: int, config: StudyConfig, folder: StudyFolder
+) -> ArmPlan:
+    """Every walk of the expert makes the drives of the tables; the first one makes the long drive, too."""
+    who = Who(f"{name}-{walk}", reference=name, walk=walk)
     return ArmPlan(
         it=None,
         who=who,
         drives=_drives(who, config, folder, count=config.episodes, steps=config.steps),
-        long_drive=_long_drive(who, name, 0, config, folder),
+        long_drive=_long_drive(who, name, walk, config, folder) if walk == 0 else None,
         forks=(),
         judge=None,
     )

@@ -13,24 +13,26 @@ from mjdrive.episodes import dataset
 from mjdrive.errors import DataError, UnknownNameError
 from mjdrive.execution.serial import SerialExecutor
 from mjdrive.execution.work import Executor
-from mjdrive.study import checkpoints, videos
-from mjdrive.study.agents import Agent, agents, learner_config, require_buildable
 from mjdrive.study.assembling import assemble
-from mjdrive.study.collecting import collections
-from mjdrive.study.drivers import load_learner
-from mjdrive.study.driving import Place, Report, drive_all
-from mjdrive.study.folder import HELD_OUT, StudyFolder, begin
-from mjdrive.study.forks import live_forks
-from mjdrive.study.judging import Judging, judge_all
+from mjdrive.study.jobs import checkpoints
+from mjdrive.study.jobs.collecting import collections
+from mjdrive.study.jobs.drivers import load_learner
+from mjdrive.study.jobs.driving import Place, Report, drive_all
+from mjdrive.study.jobs.forks import live_forks
+from mjdrive.study.jobs.judging import Judging, judge_all
+from mjdrive.study.jobs.training import TrainingJob, train_all
 from mjdrive.study.plan import ArmPlan, plan_arms, plan_progress, plan_references
-from mjdrive.study.report import write_report
-from mjdrive.study.results import StudyRecord, StudyResults
-from mjdrive.study.situations import situations
-from mjdrive.study.training import TrainingJob, train_all
+from mjdrive.study.records.folder import HELD_OUT, StudyFolder, begin
+from mjdrive.study.records.results import StudyRecord, StudyResults
+from mjdrive.study.records.situations import situations
+from mjdrive.study.report.report import write_report
+from mjdrive.study.settings.agents import Agent, agents, learner_config, require_buildable
+from mjdrive.study.videos import videos
 from mjdrive.town import library
 from mjdrive.vehicle import cars
 from models.config import Precision
 from models.energy_scoring import resolved
+from models.hardware import choose_device
 
 Stage = Callable[[str, int], Report]
 """Told that a stage begins, and of how many things it consists; what comes back is told how far each of them is."""
@@ -128,6 +130,7 @@ class Study:
             versions=versions.all_versions(),
             code=versions.code_digest(),
             precision=_precision(),
+            device=choose_device().type,
             towns={name: library.load(name).digest for name in names},
             car=cars.load().digest,
             data={name: dataset.digest(place) for name, place in self.data.items()},
@@ -166,10 +169,10 @@ class Study:
 
     def _training_job(self, agent: Agent, data: Path, run: Path, num_samples: int) -> TrainingJob:
         settings = learner_config(agent.variant)
-        if settings.optimiser.precision == "auto":
-            optimiser = dataclasses.replace(settings.optimiser, precision=_precision())
-            settings = dataclasses.replace(settings, optimiser=optimiser)
-        optimiser = settings.optimiser
+        device = choose_device()
+        precision = resolved(settings.optimiser.precision, device)
+        optimiser = dataclasses.replace(settings.optimiser, precision=precision)
+        settings = dataclasses.replace(settings, optimiser=optimiser)
         num_training = num_samples - math.floor(optimiser.validation_share * num_samples)
         return TrainingJob(
             name=agent.name,
@@ -180,6 +183,7 @@ class Study:
             keep_every=0 if agent.variant.change else self.config.progress_every,
             num_steps=optimiser.epochs * math.ceil(num_training / optimiser.batch_size),
             threads=self.config.threads,
+            device=device.type,
         )
 
     def _evaluate(

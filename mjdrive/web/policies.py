@@ -16,7 +16,7 @@ from mjdrive.expert import experts
 from mjdrive.learning import pilot, runs
 from mjdrive.learning.pilot import Pilot
 from mjdrive.simulation.simulation import Simulation
-from mjdrive.study.landscapes import action_grid
+from mjdrive.study.jobs.landscapes import action_grid
 from mjdrive.town import routing
 from mjdrive.town.random_walk import RandomWalk
 from mjdrive.zoo import entries

@@ -2,10 +2,9 @@ import dataclasses
 
 import pytest
 import torch
-from torch import nn
 
 from models.config import NetworkConfig
-from models.encoder import BlockConv2d, Encoder, draw_dropout, drop_previous_action
+from models.encoder import Encoder, draw_dropout, drop_previous_action
 from models.learners import build_learner
 from models.presets import paper
 
@@ -48,32 +47,6 @@ def test_dropped_previous_actions_are_zero_and_speed_is_kept(generator):
     assert (dropped[:, 0] == 1).all()
     assert (dropped[:, 1] == dropped[:, 2]).all()
     assert (dropped[:, 1] == 0).float().mean().item() == pytest.approx(0.3, abs=0.04)
-
-
-def test_a_block_convolution_equals_a_convolution_of_stride_2():
-    blocks = BlockConv2d(3, 4, 5, 2).double()
-    plain = nn.Conv2d(3, 4, 5, 2).double()
-    plain.load_state_dict(blocks.state_dict())
-    results = []
-    for convolve, layer in ((blocks.in_blocks, blocks), (plain, plain)):
-        picture = torch.linspace(-1, 1, 2 * 3 * 20 * 14, dtype=torch.float64)
-        picture = picture.sin().reshape(2, 3, 20, 14).requires_grad_()
-        result = convolve(picture)
-        result.square().sum().backward()
-        results.append((result, picture.grad, layer.weight.grad, layer.bias.grad))
-    for ours, theirs in zip(*results, strict=True):
-        torch.testing.assert_close(ours, theirs)
-
-
-@pytest.mark.parametrize(("dtype", "is_used"), [(torch.bfloat16, True), (torch.float32, False)])
-def test_blocks_are_used_only_where_they_are_quicker(dtype, is_used, monkeypatch):
-    used, in_blocks = [], BlockConv2d.in_blocks
-    monkeypatch.setattr(
-        BlockConv2d, "in_blocks", lambda self, x: used.append(x) or in_blocks(self, x)
-    )
-    layer = BlockConv2d(3, 4, 5, 2).to(dtype)
-    layer(torch.zeros(1, 3, 20, 14, dtype=dtype))
-    assert bool(used) == is_used
 
 
 def test_the_seed_alone_sets_the_first_weights():

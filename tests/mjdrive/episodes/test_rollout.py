@@ -89,6 +89,13 @@ def test_same_seed_drives_alike(simulation: Simulation) -> None:
     assert drives[0].infractions == drives[1].infractions
 
 
+def test_another_walk_turns_another_way_from_the_same_start(simulation: Simulation) -> None:
+    first, second = (drive_expert(simulation, num_steps=500, seed=2, walk=it) for it in (0, 1))
+    np.testing.assert_array_equal(first.vehicle[:20], second.vehicle[:20])
+    assert first.light_phase == second.light_phase
+    assert np.hypot(*(first.vehicle[-1] - second.vehicle[-1])[:2]) > 5.0
+
+
 def test_view_follows_a_route_that_crosses_itself(simulation: Simulation) -> None:
     lane, station = routing.random_start(simulation.town, np.random.default_rng(1))
     route = routing.random_route(

@@ -29,6 +29,7 @@ def tiny() -> StudyConfig:
             Arm("da-ibc-argmin", "da-ibc", "DA-IBC, lowest", ("sampler.grid.choice=argmin",)),
         ),
         demonstrations=(Demonstrations("demonstrations", random_walk_km=0.05),),
+        expert_walks=2,
         seeds=(3,),
         ablation_seeds=(),
         detail_seeds=(3,),

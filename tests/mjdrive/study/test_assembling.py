@@ -6,8 +6,8 @@ import pytest
 
 from mjdrive.datatypes import Town
 from mjdrive.study.assembling import recall_curve
-from mjdrive.study.drive_records import DriveRecord
-from mjdrive.study.measures import DriveFigures
+from mjdrive.study.records.drive_records import DriveRecord
+from mjdrive.study.records.measures import DriveFigures
 
 
 def record(duration: float, *passages: tuple[float, str]) -> DriveRecord:

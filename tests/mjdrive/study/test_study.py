@@ -13,9 +13,9 @@ import pytest
 from mjdrive.config import StudyConfig, from_dict, read_json
 from mjdrive.errors import DataError, RouteError, RunError, UnknownNameError
 from mjdrive.evaluation.metrics import RED_LIGHT_FACTOR
-from mjdrive.study.folder import StudyFolder
 from mjdrive.study.plan import plan_arms, plan_references
-from mjdrive.study.results import RESULTS, StudyRecord, StudyResults
+from mjdrive.study.records.folder import StudyFolder
+from mjdrive.study.records.results import RESULTS, StudyRecord, StudyResults
 from mjdrive.study.study import Study
 from mjdrive.town import library
 
@@ -85,7 +85,7 @@ def test_a_finished_study_is_told_in_full_and_made_again_in_no_part(
 ) -> None:
     folder = tmp_path / "copy"
     shutil.copytree(tiny_folder, folder)
-    monkeypatch.delattr("mjdrive.study.driving.Simulation")
+    monkeypatch.delattr("mjdrive.study.jobs.driving.Simulation")
     told: dict[str, set[str]] = {}
     counts: dict[str, int] = {}
 
@@ -173,7 +173,7 @@ def test_runs_trained_on_other_data_are_refused(
 def test_a_town_without_a_choice_of_two_is_refused_before_anything_runs(
     tiny: StudyConfig, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("mjdrive.study.situations.approaches", lambda town: ())
+    monkeypatch.setattr("mjdrive.study.records.situations.approaches", lambda town: ())
     with pytest.raises(RouteError, match="no junction with two ways on"):
         Study(tiny, tmp_path / "study").run(quietly)
     assert not (tmp_path / "study").exists()
@@ -195,7 +195,7 @@ def test_results_hold_every_agent_way_to_act_and_reference(
     tiny: StudyConfig, tiny_folder: Path
 ) -> None:
     results = read_json(StudyResults, tiny_folder / RESULTS)
-    assert [it.arm for it in results.references] == ["expert", "right-walker"]
+    assert [it.arm for it in results.references] == ["expert", "expert", "right-walker"]
     assert [(it.arm, it.seed) for it in results.arms] == [(arm.name, 3) for arm in tiny.arms]
     starts = {
         tuple(drive.seed for drive in it.drives) for it in (*results.references, *results.arms)

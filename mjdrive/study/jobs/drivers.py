@@ -1,0 +1,142 @@
+"""Who drives in a study, small enough to be sent to another process: a trained run with its way to act, or a reference."""
+
+import dataclasses
+import functools
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from mjdrive import config, versions
+from mjdrive.config import PidConfig, Reference, SimulationConfig
+from mjdrive.datatypes import Episode
+from mjdrive.episodes import driving
+from mjdrive.errors import RunError
+from mjdrive.learning.pilot import Pilot
+from mjdrive.learning.settings import acting_changed
+from mjdrive.simulation.simulation import Simulation
+from mjdrive.study.jobs.checkpoints import digest
+from mjdrive.town.rightmost import rightmost
+from models import checkpoint, serialization
+from models.config import Precision
+from models.errors import ModelsError
+from models.interfaces import Learner
+
+
+@dataclass(frozen=True, slots=True)
+class Who:
+    """Somebody who drives.
+
+    Attributes:
+        name: Of its files: arm and training seed, or the reference.
+        digest: SHA-256 of the weights, hexadecimal; empty for a reference.
+        run: Folder of the trained run; None for a reference.
+        acting: Changes to the settings that it was trained with.
+        precision: Number format to score actions in where the settings of an agent leave it open.
+        reference: Which reference it is; None for an agent.
+        walk: Which random turns the expert takes from the same starts [-].
+    """
+
+    name: str
+    digest: str = ""
+    run: Path | None = None
+    acting: tuple[str, ...] = ()
+    precision: Precision = "float32"
+    reference: Reference | None = None
+    walk: int = 0
+
+
+def agent(name: str, run: Path, acting: tuple[str, ...], precision: Precision) -> Who:
+    """An agent in a way to act.
+
+    Args:
+        name: Of its files.
+        run: Folder of the trained run.
+        acting: Changes to the settings that it was trained with.
+        precision: Number format to score actions in where its settings leave it open.
+    """
+    return Who(name, digest(run), run, acting, precision)
+
+
+def load_learner(who: Who) -> Learner:
+    """Load the network of an agent, with the settings that it acts with.
+
+    Raises:
+        RunError: If the folder is no run, a file of it is damaged, or it has other weights than when it was planned.
+    """
+    assert who.run is not None, "a reference has no network"
+    try:
+        learner = checkpoint.load(who.run)
+    except ModelsError as error:
+        raise RunError(str(error)) from error
+    if digest(who.run) != who.digest:
+        raise RunError(
+            f"The run '{who.run}' has changed since the study began. Run the same command again."
+        )
+    learner.config = acting_changed(learner.config, who.acting)
+    sampler = learner.config.sampler
+    if sampler.precision == "auto":  # else each machine would settle on its own
+        sampler = dataclasses.replace(sampler, precision=who.precision)
+        learner.config = dataclasses.replace(learner.config, sampler=sampler)
+    return learner
+
+
+@functools.lru_cache(maxsize=1)
+def load_pilot(who: Who) -> Pilot:
+    """Load an agent; the last one is kept, as many drives follow each other.
+
+    It acts on the CPU everywhere, so that drives do not depend on who has a GPU.
+    """
+    return Pilot(load_learner(who), name=who.name, device="cpu")
+
+
+def drive(
+    who: Who, simulation: Simulation, *, num_steps: int, seed: int, on_step: Callable[[int], None]
+) -> Episode:
+    """Let somebody drive freely, from a random place that only seed and steps decide.
+
+    Args:
+        who: Who drives.
+        simulation: World to drive in; it is reset.
+        num_steps: Control steps [-].
+        seed: Same seed, same drive.
+        on_step: Told the number of control steps done.
+
+    Raises:
+        RunError: If the run of an agent cannot be loaded.
+    """
+    town = simulation.town
+    if who.reference is None:
+        pilot = load_pilot(who)
+        metadata = _metadata(who, simulation, serialization.to_json(pilot.config), num_steps)
+        return driving.drive(
+            simulation, pilot, num_steps=num_steps, seed=seed, on_step=on_step, metadata=metadata
+        )
+    goes_right = who.reference == "right-walker"
+    return driving.drive_expert(
+        simulation,
+        num_steps=num_steps,
+        seed=seed,
+        on_step=on_step,
+        choose=functools.partial(rightmost, town) if goes_right else None,
+        walk=who.walk,
+        metadata=_metadata(who, simulation, config.to_json(PidConfig()), num_steps),
+    )
+
+
+def _metadata(who: Who, simulation: Simulation, settings: str, num_steps: int) -> dict[str, str]:
+    """Versions, digests and settings that decide a drive."""
+    decided = {
+        "num_steps": num_steps,
+        "simulation": json.loads(config.to_json(SimulationConfig())),
+        "policy": json.loads(settings),
+        "driver": who.name,
+    }
+    return {
+        "town_digest": simulation.town.digest,
+        "car": simulation.car_model.name,
+        "car_digest": simulation.car_model.digest,
+        "policy_digest": who.digest,
+        "settings": json.dumps(decided, sort_keys=True),
+        **versions.to_metadata(versions.versions()),
+    }

@@ -1,0 +1,181 @@
+"""Ask the agents of a study what they think: of what the expert did, and of every action at the moments of the pictures."""
+
+from collections.abc import Callable, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from mjdrive import config
+from mjdrive.bev.projector import BevProjector
+from mjdrive.episodes import dataset
+from mjdrive.execution.work import Executor, Tell
+from mjdrive.study.jobs import landscapes
+from mjdrive.study.jobs.drivers import Who, load_learner
+from mjdrive.study.jobs.driving import Place, Report
+from mjdrive.study.jobs.held_out import HeldOut, held_out, judge
+from mjdrive.study.records import folder
+from mjdrive.study.records.measures import LandscapeFigures, Likelihood
+from mjdrive.study.records.results import LandscapeRecord
+from mjdrive.study.records.situations import Moment, situations
+from mjdrive.versions import require_same
+from models.threads import one_thread
+
+_DIGITS = 9
+"""Probabilities are kept to so many decimals; cells of less than half of the last are zero."""
+
+
+@dataclass(frozen=True, slots=True)
+class JudgeJob:
+    """One agent in one way to act to be asked.
+
+    Attributes:
+        who: The agent.
+        arm: Name of its arm.
+        variant: Name of its variant.
+        agent_seed: Its training seed [-].
+        file: Where the record goes.
+        landscapes: Folder for what it thinks at the moments of the pictures; None if that is not kept.
+        seed: Decides the actions that it draws there.
+    """
+
+    who: Who
+    arm: str
+    variant: str
+    agent_seed: int
+    file: Path
+    landscapes: Path | None
+    seed: int
+
+    @property
+    def name(self) -> str:
+        """For people."""
+        return f"{self.who.name}, likelihood"
+
+
+@dataclass(frozen=True, slots=True)
+class JudgeRecord:
+    """What an agent thinks.
+
+    Attributes:
+        digest: SHA-256 of its weights, hexadecimal.
+        likelihood: How likely it finds what the expert does; None if there is nothing held out.
+        landscape: How many ways to act it sees at junctions; None likewise.
+        landscapes: Names of the files with what it thinks at the moments of the pictures.
+    """
+
+    digest: str
+    likelihood: Likelihood | None
+    landscape: LandscapeFigures | None
+    landscapes: tuple[str, ...]
+
+
+class Judged(NamedTuple):
+    """An agent that was asked; as in `JudgeRecord`, with the landscapes themselves."""
+
+    likelihood: Likelihood | None
+    landscape: LandscapeFigures | None
+    landscapes: tuple[LandscapeRecord, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Judging:
+    """Asks agents.
+
+    Attributes:
+        place: Where the expert's walk and the moments of the pictures are.
+        walk: Data folder of the walk; None if there is none.
+        num_frames: Moments of it to ask about [-].
+        seed: Decides which.
+    """
+
+    place: Place
+    walk: Path | None
+    num_frames: int
+    seed: int
+
+    def begin(self) -> Callable[[JudgeJob, Tell], Judged]:
+        """Draw what is seen; what comes back asks one agent."""
+        require_same(self.place.versions)
+        town = self.place.town
+        walk = None
+        if self.walk is not None:
+            _, episodes = dataset.read_dataset(self.walk)
+            rng = np.random.default_rng(self.seed)
+            walk = held_out(episodes, town, num_frames=self.num_frames, rng=rng)
+        moments, projector = situations(town), BevProjector(town)
+        return lambda job, tell: _ask(job, walk, moments, projector)
+
+
+def judge_all(
+    work: Judging, jobs: Sequence[JudgeJob], *, executor: Executor, report: Report
+) -> None:
+    """Ask the agents that have not been asked yet.
+
+    Args:
+        work: What they are asked.
+        jobs: The agents.
+        executor: Where the work is done; the files do not depend on it.
+        report: Told who has been asked.
+
+    Raises:
+        DataError: If the walk is missing, unfinished or damaged.
+        RunError: If the run of an agent cannot be loaded.
+        WorkerError: If a process was lost.
+    """
+    missing = [job for job in jobs if read_record(job) is None]
+    for job in set(jobs) - set(missing):
+        report(job.name, 1, 1)
+    if not missing:
+        return
+    with closing(executor.run(work, missing, on_progress=lambda job, done: None)) as results:
+        for job, judged in results:
+            config.write_json(_kept(job, judged), job.file)
+            report(job.name, 1, 1)
+
+
+def read_record(job: JudgeJob) -> JudgeRecord | None:
+    """What an agent thinks; None if it has not been asked yet, or had other weights."""
+    found = folder.read(JudgeRecord, job.file)
+    if found is None or found.digest != job.who.digest:
+        return None
+    is_whole = job.landscapes is None or all(
+        folder.is_written(LandscapeRecord, job.landscapes / name) for name in found.landscapes
+    )
+    return found if is_whole else None
+
+
+def _kept(job: JudgeJob, judged: Judged) -> JudgeRecord:
+    """Write the landscapes, and describe all."""
+    names = []
+    for it in judged.landscapes:
+        assert job.landscapes is not None, "only landscapes that are kept are measured"
+        names.append(f"{job.who.name}-{it.moment.name}.json")
+        config.write_json(it, job.landscapes / names[-1])
+    return JudgeRecord(job.who.digest, judged.likelihood, judged.landscape, tuple(names))
+
+
+def _ask(
+    job: JudgeJob, walk: HeldOut | None, moments: tuple[Moment, ...], projector: BevProjector
+) -> Judged:
+    learner = load_learner(job.who).eval()
+    likelihood, landscape = (None, None) if walk is None else judge(learner, walk)
+    if job.landscapes is None:
+        return Judged(likelihood, landscape, ())
+    with one_thread():
+        seen = landscapes.measure(learner, moments, projector, seed=job.seed)
+    records = tuple(
+        LandscapeRecord(
+            arm=job.arm,
+            variant=job.variant,
+            seed=job.agent_seed,
+            moment=moment,
+            points=len(it.probabilities),
+            probabilities=tuple(np.round(it.probabilities.ravel(), _DIGITS).tolist()),
+            draws=tuple((round(a, 6), round(s, 6)) for a, s in it.draws.tolist()),
+        )
+        for moment, it in zip(moments, seen, strict=True)
+    )
+    return Judged(likelihood, landscape, records)

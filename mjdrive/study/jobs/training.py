@@ -1,0 +1,122 @@
+"""Train the agents of a study, each in a run folder of its own that can be gone on with."""
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import torch
+
+from mjdrive import versions
+from mjdrive.execution.work import Executor, Tell
+from mjdrive.learning import runs
+from mjdrive.learning.training import train
+from mjdrive.study.jobs.checkpoints import keep_epoch
+from models.config import LearnerConfig
+from models.progress import StepReport
+
+
+@dataclass(frozen=True, slots=True)
+class TrainingJob:
+    """One run to train, or to go on with.
+
+    Attributes:
+        name: Of the agent.
+        config: Its settings.
+        seed: Training seed [-].
+        data: Folder of the demonstrations.
+        run: Run folder.
+        keep_every: Epochs between two checkpoints that are kept; 0 keeps none [-].
+        num_steps: Steps of the whole run [-].
+        threads: That torch may use; the weights depend on it [-].
+        device: Kind of device that trains, "cpu" or "cuda"; the weights depend on it, too.
+    """
+
+    name: str
+    config: LearnerConfig
+    seed: int
+    data: Path
+    run: Path
+    keep_every: int
+    num_steps: int
+    threads: int
+    device: str
+
+
+@dataclass(frozen=True, slots=True)
+class Training:
+    """Trains runs, one after the other, each with the threads that the study has for it, however many train beside it.
+
+    Attributes:
+        versions: Of the software where training was asked for.
+    """
+
+    versions: dict[str, str]
+
+    def begin(self) -> Callable[[TrainingJob, Tell], None]:
+        """Make sure of the versions; what comes back trains one run.
+
+        Raises:
+            WorkerError: If this is a machine with other versions.
+        """
+        versions.require_same(self.versions)
+        return _train
+
+
+def train_all(
+    jobs: Sequence[TrainingJob], *, executor: Executor, report: Callable[[str, int, int], None]
+) -> None:
+    """Train every run.
+
+    Args:
+        jobs: What to train.
+        executor: Where; the weights do not depend on how many processes train at once.
+        report: Told the name of a run, its steps so far and its steps in all.
+
+    Raises:
+        DataError: If the demonstrations are missing, unfinished or damaged.
+        RunError: If a run folder holds a run with other settings, or training fails.
+    """
+
+    def on_progress(job: TrainingJob, done: int) -> None:
+        report(job.name, min(done, job.num_steps - 1), job.num_steps)
+
+    work = Training(versions.all_versions())
+    with closing(executor.run(work, jobs, on_progress=on_progress)) as results:
+        for job, _ in results:
+            report(job.name, job.num_steps, job.num_steps)
+
+
+def _train(job: TrainingJob, tell: Tell) -> None:
+    resumes = runs.is_run(job.run)
+    is_begun = False
+
+    def on_step(step: StepReport) -> None:
+        nonlocal is_begun
+        if resumes and not is_begun:  # the interruption may have come between checkpoint and copy
+            keep_epoch(job.run, every=job.keep_every)
+        is_begun = True
+        tell(step.step)
+
+    with _threads(job.threads):
+        train(
+            job.config,
+            data=job.data,
+            run=job.run,
+            seed=job.seed,
+            resume=resumes,
+            device=job.device,
+            on_step=on_step,
+            on_epoch=lambda _: keep_epoch(job.run, every=job.keep_every),
+        )
+
+
+@contextmanager
+def _threads(count: int) -> Iterator[None]:
+    """Let torch use so many threads, and afterwards as many as before."""
+    before = torch.get_num_threads()
+    torch.set_num_threads(count)
+    try:
+        yield
+    finally:
+        torch.set_num_threads(before)

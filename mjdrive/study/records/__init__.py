@@ -1,0 +1,1 @@
+"""What a study keeps: its folder, its results, and what they are measured from."""

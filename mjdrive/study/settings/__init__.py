@@ -1,0 +1,1 @@
+"""What is compared: named studies, their ablations, changes to them, and the agents that follow."""

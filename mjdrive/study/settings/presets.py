@@ -1,0 +1,186 @@
+"""Named studies: `quick` takes minutes, `standard` a night on two cores, `paper` has the settings of the paper throughout."""
+
+import dataclasses
+from collections.abc import Callable, Sequence
+
+from mjdrive.config import Arm, Demonstrations, StudyConfig, Variant
+from mjdrive.errors import UnknownNameError
+from mjdrive.study.settings.ablations import ABLATIONS, ACTING_ABLATIONS, LONG, LONG_STEEP
+from models.config import METHODS
+
+UNDISTURBED = Demonstrations("undisturbed", preset="paper")
+"""Demonstrations without disturbances, as the paper's."""
+
+WALKED_KM = 100.0
+"""What agents of a standard study learn from: fifteen times the ten routes, by a random walk that leaves out no turn [km]."""
+
+_GENTLE = ("bc-beta", "bc-mixture")
+"""Methods whose step size is small anyway."""
+
+_GRID_SAMPLED = ("sampler.kind=grid", "sampler.grid.choice=sample")
+_GRID_LOWEST = ("sampler.kind=grid", "sampler.grid.choice=argmin")
+_DFO = (
+    "sampler.kind=dfo",
+    "sampler.dfo.num_samples=16384",
+    "sampler.dfo.iterations=5",
+    "sampler.dfo.sigma_init=0.5",
+    "sampler.dfo.shrink=0.5",
+    "sampler.dfo.start=inverse_kde",
+)
+_PAPERS_DFO = (*_DFO, "sampler.dfo.temper=false", "sampler.dfo.choice=sample")
+
+_TEMPERED_DFO = (
+    *_DFO,
+    "sampler.dfo.num_samples=2048",
+    "sampler.dfo.temper=true",
+    "sampler.dfo.choice=sample",
+)
+
+
+def _aside(name: str, variant: str, label: str, *acting: str) -> Arm:
+    """A way to act that is looked at with one agent."""
+    return Arm(name, variant, label, acting, all_seeds=False)
+
+
+ARMS = (
+    Arm("bc-beta-mode", "bc-beta", "BC-Beta, mode", ("beta.inference=mode",)),
+    Arm("bc-beta-sample", "bc-beta", "BC-Beta, sampled", ("beta.inference=sample",)),
+    _aside("bc-beta-mean", "bc-beta", "BC-Beta, mean", "beta.inference=mean"),
+    Arm("bc-mixture-sample", "bc-mixture", "BC mixture, sampled", ("beta.inference=sample",)),
+    _aside("bc-mixture-mode", "bc-mixture", "BC mixture, mode", "beta.inference=mode"),
+    Arm("bc-grid-sample", "bc-grid", "BC grid, sampled", ("categorical.choice=sample",)),
+    _aside("bc-grid-argmax", "bc-grid", "BC grid, densest", "categorical.choice=argmax"),
+    Arm("ibc-sample", "ibc", "IBC, grid sampled", _GRID_SAMPLED),
+    _aside("ibc-argmin", "ibc", "IBC, grid lowest", *_GRID_LOWEST),
+    Arm("da-ibc-sample", "da-ibc", "DA-IBC, grid sampled", _GRID_SAMPLED),
+    Arm("da-ibc-argmin", "da-ibc", "DA-IBC, grid lowest", _GRID_LOWEST),
+    Arm("da-ibc-dfo", "da-ibc", "DA-IBC, the paper's DFO", _PAPERS_DFO),
+    _aside("da-ibc-tempered", "da-ibc", "DA-IBC, tempered DFO", *_TEMPERED_DFO),
+    Arm("ibc-langevin-chain", "ibc-langevin", "Langevin IBC, chains", ("sampler.kind=langevin",)),
+    _aside("ibc-langevin-sample", "ibc-langevin", "Langevin IBC, grid sampled", *_GRID_SAMPLED),
+    Arm("diffusion-sample", "diffusion", "Diffusion"),
+    Arm("flow-sample", "flow", "Flow matching"),
+)
+"""How each method acts; the first of a method is its main way. BC-Beta and DA-IBC by mode and by sample are the 2 x 2 control."""
+
+_PAPER_ARMS = (
+    Arm("bc-beta-mode", "bc-beta", "BC-Beta, mode", ("beta.inference=mode",)),
+    Arm("bc-beta-sample", "bc-beta", "BC-Beta, sampled", ("beta.inference=sample",)),
+    Arm("da-ibc-dfo", "da-ibc", "DA-IBC, the paper's DFO", _PAPERS_DFO),
+    Arm(
+        "da-ibc-dfo-argmin",
+        "da-ibc",
+        "DA-IBC, DFO lowest",
+        (*_DFO, "sampler.dfo.temper=false", "sampler.dfo.choice=argmin"),
+    ),
+)
+
+
+def quick(methods: Sequence[str] | None = None) -> StudyConfig:
+    """A study of minutes: it shows that everything works, and nothing of what methods are worth."""
+    methods = ("bc-beta", "da-ibc") if methods is None else methods
+    variants = tuple(
+        Variant(name, name, preset="quick", assignments=("optimiser.epochs=2",)) for name in methods
+    )
+    main = {arm.variant: arm for arm in reversed(ARMS)}
+    return StudyConfig(
+        preset="quick",
+        variants=variants,
+        arms=tuple(main[name] for name in methods),
+        demonstrations=(Demonstrations("demonstrations", routes=("route0",)),),
+        expert_walks=2,
+        seeds=(0,),
+        episodes=2,
+        steps=200,
+        long_steps=400,
+        progress_every=1,
+        progress_episodes=1,
+        progress_steps=100,
+        forks=1,
+        fork_rollouts=4,
+        held_out_km=0.2,
+        held_out_frames=32,
+    )
+
+
+def standard(methods: Sequence[str] | None = None) -> StudyConfig:
+    """Every method with the settings that drive best, three agents each, and what each setting of DA-IBC is worth."""
+    methods = METHODS if methods is None else methods
+    ablated = "da-ibc" in methods
+    return StudyConfig(
+        preset="standard",
+        variants=(
+            *(
+                Variant(name, name, assignments=LONG if name in _GENTLE else LONG_STEEP)
+                for name in methods
+            ),
+            *(ABLATIONS if ablated else ()),
+        ),
+        arms=(
+            *(arm for name in methods for arm in ARMS if arm.variant == name),
+            *(ACTING_ABLATIONS if ablated else ()),
+        ),
+        demonstrations=(
+            Demonstrations("demonstrations", random_walk_km=WALKED_KM),
+            *((dataclasses.replace(UNDISTURBED, random_walk_km=WALKED_KM),) if ablated else ()),
+        ),
+        progress_every=1,
+        forks=1,
+    )
+
+
+def paper(methods: Sequence[str] | None = None) -> StudyConfig:
+    """The paper: three agents a method, ten episodes of 3,000 steps every ten epochs, its settings throughout."""
+    methods = ("bc-beta", "da-ibc") if methods is None else methods
+    mine = {arm.variant for arm in _PAPER_ARMS}
+    arms = (*_PAPER_ARMS, *(arm for arm in ARMS if arm.variant not in mine))
+    return StudyConfig(
+        preset="paper",
+        variants=tuple(
+            Variant(name, name, preset="paper", demonstrations=UNDISTURBED.name) for name in methods
+        ),
+        arms=tuple(arm for name in methods for arm in arms if arm.variant == name),
+        demonstrations=(UNDISTURBED,),
+        ablation_seeds=(),
+        progress_every=10,
+        progress_episodes=10,
+        progress_steps=3000,
+    )
+
+
+PRESETS: dict[str, Callable[[Sequence[str] | None], StudyConfig]] = {
+    "quick": quick,
+    "standard": standard,
+    "paper": paper,
+}
+
+
+def preset(name: str, *, methods: Sequence[str] | None = None) -> StudyConfig:
+    """A study by the name of its preset.
+
+    Args:
+        name: "quick", "standard" or "paper".
+        methods: What is compared; what the preset has if None.
+
+    Raises:
+        UnknownNameError: If there is no such preset or method.
+    """
+    if name not in PRESETS:
+        raise UnknownNameError("study preset", name, PRESETS)
+    for method in methods or ():
+        if method not in METHODS:
+            raise UnknownNameError("method", method, METHODS)
+    return PRESETS[name](methods)
+
+
+def without_ablations(config: StudyConfig) -> StudyConfig:
+    """The same study of the methods alone."""
+    variants = tuple(it for it in config.variants if not it.change)
+    kept = {it.name for it in variants}
+    learnt = {it.demonstrations for it in variants}
+    return dataclasses.replace(
+        config,
+        variants=variants,
+        arms=tuple(it for it in config.arms if it.variant in kept and not it.change),
+        demonstrations=tuple(it for it in config.demonstrations if it.name in learnt),
+    )

@@ -1,0 +1,136 @@
+"""What the tables of a study have in a row: all agents of an arm together, or a reference."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from mjdrive.config import StudyConfig
+from mjdrive.evaluation import bootstrap
+from mjdrive.evaluation.bootstrap import Interval, Statistic
+from mjdrive.study.records.measures import DriveFigures
+from mjdrive.study.records.results import ArmResult, StudyResults
+
+REFERENCE_LABELS = {
+    "expert": "PID expert, random walk",
+    "right-walker": "PID expert, always right",
+}
+"""What tables call the references."""
+
+NOTHING = "-"
+"""What a cell shows where nothing was measured."""
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One row.
+
+    Attributes:
+        label: What it is called.
+        results: Of each agent, by training seed; of a reference, by walk.
+        change: What sets an ablation apart; empty for the study's own arms and for references.
+    """
+
+    label: str
+    results: tuple[ArmResult, ...]
+    change: str = ""
+
+    def per_drive(self, figure: Callable[[DriveFigures], float]) -> Float[np.ndarray, "S E"]:
+        """A figure of every drive of every agent, in its own unit."""
+        return np.array([[figure(drive) for drive in it.drives] for it in self.results], float)
+
+    def per_agent(
+        self, figure: Callable[[ArmResult], float | None]
+    ) -> Float[np.ndarray, "S 1"] | None:
+        """A figure of every agent that has it, in its own unit; None if none of them has."""
+        found = [it for it in map(figure, self.results) if it is not None]
+        return np.array([found], float).T if found else None
+
+
+def reference_rows(found: StudyResults) -> tuple[Row, ...]:
+    """The references, which every table begins with."""
+    return tuple(
+        Row(REFERENCE_LABELS[name], tuple(it for it in found.references if it.arm == name))
+        for name in dict.fromkeys(it.arm for it in found.references)
+    )
+
+
+def expert_row(found: StudyResults) -> Row | None:
+    """All walks of the expert, which ratios are taken to; None if it did not drive."""
+    label = REFERENCE_LABELS["expert"]
+    return next((row for row in reference_rows(found) if row.label == label), None)
+
+
+def arm_rows(config: StudyConfig, found: StudyResults) -> tuple[Row, ...]:
+    """All arms in the order of the study, ablations among them."""
+    changes = {variant.name: variant.change for variant in config.variants}
+    rows = (
+        Row(
+            arm.label,
+            tuple(it for it in found.arms if it.arm == arm.name),
+            arm.change or changes[arm.variant],
+        )
+        for arm in config.arms
+    )
+    return tuple(row for row in rows if row.results)
+
+
+def interval(figures: Float[np.ndarray, "S E"]) -> Interval:
+    """Mean with its bootstrap interval; the same figures give the same interval."""
+    return bootstrap.interval(figures, rng=np.random.default_rng(0))
+
+
+def ratio(
+    figures: Float[np.ndarray, "S E"],
+    reference: Float[np.ndarray, "R F"],
+    statistic: Statistic = bootstrap.mean,
+) -> Interval | None:
+    """Ratio to the mean of a reference with its bootstrap interval; None if the reference has nothing."""
+    if not (reference > 0).all():
+        return None
+    return bootstrap.ratio_interval(
+        figures, reference, rng=np.random.default_rng(0), statistic=statistic
+    )
+
+
+def agent_cell(row: Row, figure: Callable[[ArmResult], float | None], *, digits: int = 2) -> str:
+    """Mean and interval over the agents that have a figure, and how many those are unless all have it."""
+    figures = row.per_agent(figure)
+    text = cell(figures, digits=digits)
+    if figures is None or len(figures) == len(row.results):
+        return text
+    return f"{text} ({len(figures)} of {len(row.results)})"
+
+
+def training_seeds(row: Row) -> str:
+    """How many agents a row is made of; references are not trained."""
+    return str(len(row.results)) if row.results[0].variant else NOTHING
+
+
+def cell(figures: Float[np.ndarray, "S E"] | None, *, digits: int = 2) -> str:
+    """Mean and interval as a table has them; the figure alone where there is no other."""
+    if figures is None:
+        return NOTHING
+    if figures.size == 1:
+        return number(float(figures[0, 0]), digits=digits)
+    found = interval(figures)
+    low, high = (f"{it:,.{_shown(found.value, digits)}f}" for it in (found.low, found.high))
+    return f"{number(found.value, digits=digits)} [{low}, {high}]"
+
+
+def _shown(value: float, digits: int) -> int:
+    return 0 if abs(value) >= 100 else digits
+
+
+def number(value: float | None, *, digits: int = 2) -> str:
+    """A figure without an interval, as a table has it."""
+    if value is None:
+        return NOTHING
+    return f"{value:,.{_shown(value, digits)}f}"
+
+
+def markdown(head: Sequence[str], body: Sequence[Sequence[str]]) -> str:
+    """A table in Markdown."""
+    lines = [head, ["---"] * len(head), *body]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)

@@ -1,0 +1,1 @@
+"""Both turns at one junction, as videos that a browser plays."""
