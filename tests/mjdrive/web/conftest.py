@@ -1,5 +1,7 @@
 """A session without network, and a simulator that is turned by hand, with an audience that notes what it is told."""
 
+import json
+import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -14,9 +16,11 @@ from mjdrive.web.pace import Pace
 from mjdrive.web.roles import Standing
 from mjdrive.web.session import Choice, Session
 from mjdrive.web.simulator import Simulator
+from mjdrive.zoo import entries
 
 ROOT = Path(__file__).resolve().parents[3]
 TOWN = "town03"
+FLAWS = ("collisions", "kerb_strikes", "road_departures", "wrong_ways", "standstills")
 
 
 class Notebook:
@@ -111,3 +115,52 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     command += ["--disable-pip-version-check", "--target", str(folder / "site"), wheel]
     subprocess.run(command, check=True)
     return folder / "site"
+
+
+def straight_episode() -> Episode:
+    """Straight on along x at 10 m/s, with an infraction after two seconds."""
+    steps = 60
+    model = car_on_road(timestep=0.005, car=cars.load(cars.DEFAULT).path).compile()
+    physics = Car(model, mujoco.MjData(model)).save()
+    vehicle = np.zeros((steps, 6))
+    vehicle[:, 0], vehicle[:, 3] = np.arange(steps), 10.0
+    actions = np.tile([0.5, -0.25], (steps, 1))
+    return Episode(
+        town="town03",
+        policy="searcher",
+        seed=7,
+        light_phase=0.0,
+        time=0.1 * np.arange(steps),
+        physics=np.tile(physics, (steps, 1)),
+        vehicle=vehicle,
+        actions=actions,
+        labels=actions,
+        on_lane=np.ones(steps, bool),
+        infractions=(Infraction(InfractionKind.KERB, 2.0, 20.0, 0.0, "kerb/1"),),
+        metadata={},
+    )
+
+
+@pytest.fixture(scope="session")
+def shelves(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where the server is started: a run whose policy searches in three iterations, and two drives of it."""
+    folder = tmp_path_factory.mktemp("shelves")
+    run = folder / "runs" / "searcher"
+    shutil.copytree(entries.find("zoo:da-ibc"), run)
+    settings = json.loads((run / "config.json").read_text())
+    settings["sampler"]["kind"] = "dfo"
+    settings["sampler"]["dfo"] |= {"num_samples": 96, "iterations": 3}
+    (run / "config.json").write_text(json.dumps(settings))
+    lines = [
+        json.dumps({"epoch": n, "loss": 1 / n, "validation_loss": 2 / n, "duration_s": 60})
+        for n in (1, 2, 3)
+    ]
+    (run / "metrics.jsonl").write_text("\n".join(lines))
+    for number, distance in enumerate((100.0, 300.0)):
+        drive = folder / "drives" / f"drive-{number}"
+        drive.mkdir(parents=True)
+        store.write(straight_episode(), drive / "episode.hdf5")
+        figures = {"distance_m": distance, "score": distance, "red_lights": number}
+        others = {"policy": "searcher", "town": "town03", **dict.fromkeys(FLAWS, 0)}
+        (drive / "summary.json").write_text(json.dumps(figures | others))
+    return folder

@@ -1,7 +1,6 @@
 """One server and one Chromium for all tests of a process; what the server says is the truth that the page is held to."""
 
 import json
-import shutil
 import socket
 import subprocess
 import sys
@@ -13,25 +12,17 @@ from pathlib import Path
 from shutil import which
 from typing import Any
 
-import mujoco
-import numpy as np
 import pytest
 from websockets.sync.client import connect
 
-from mjdrive.datatypes import Episode, Infraction, InfractionKind
-from mjdrive.episodes import store
-from mjdrive.vehicle import cars
-from mjdrive.vehicle.assembly import car_on_road
-from mjdrive.vehicle.car import Car
 from mjdrive.web import wire
-from mjdrive.zoo import entries
 
 CHROMIUM = which("chromium") or which("chromium-browser") or which("google-chrome")
 FLAGS = [f"--disable-{it}" for it in ("dev-shm-usage", "quic", "component-update", "sync")]
 FLAGS += ["--no-sandbox", "--no-first-run", "--disable-background-networking"]
 # Compositing the page in software, too, would be four times slower.
 FLAGS += ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing"]
-PATIENCE = 120.0
+PATIENCE = 240.0
 """On a machine that is busy with many other things [s]."""
 
 NO_WEBGL = """
@@ -41,10 +32,9 @@ HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
 };
 """
 
-KEPT = ("collisions", "kerb_strikes", "road_departures", "wrong_ways", "standstills")
-
 
 def wait(condition: Callable[[], Any], what: str) -> Any:
+    """Return what a condition comes to as soon as it is true."""
     end = time.monotonic() + PATIENCE
     while not (found := condition()):
         assert time.monotonic() < end, f"waited in vain for {what}"
@@ -157,60 +147,13 @@ class Bench:
         self.watcher.until(driver=self.page.evaluate("mjdrive.state().you"))
 
 
-def an_episode(steps: int = 60) -> Episode:
-    """Straight on along x at 10 m/s, with an infraction after two seconds."""
-    model = car_on_road(timestep=0.005, car=cars.load(cars.DEFAULT).path).compile()
-    physics = Car(model, mujoco.MjData(model)).save()
-    vehicle = np.zeros((steps, 6))
-    vehicle[:, 0], vehicle[:, 3] = np.arange(steps), 10.0
-    actions = np.tile([0.5, -0.25], (steps, 1))
-    return Episode(
-        town="town03",
-        policy="searcher",
-        seed=7,
-        light_phase=0.0,
-        time=0.1 * np.arange(steps),
-        physics=np.tile(physics, (steps, 1)),
-        vehicle=vehicle,
-        actions=actions,
-        labels=actions,
-        on_lane=np.ones(steps, bool),
-        infractions=(Infraction(InfractionKind.KERB, 2.0, 20.0, 0.0, "kerb/1"),),
-        metadata={},
-    )
-
-
 @pytest.fixture(scope="session")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Where the server is started: a run whose policy searches in three iterations, and two drives of it."""
-    folder = tmp_path_factory.mktemp("serve")
-    run = folder / "runs" / "searcher"
-    shutil.copytree(entries.find("zoo:da-ibc"), run)
-    settings = json.loads((run / "config.json").read_text())
-    settings["sampler"]["kind"] = "dfo"
-    settings["sampler"]["dfo"] |= {"num_samples": 96, "iterations": 3}
-    (run / "config.json").write_text(json.dumps(settings))
-    epochs = [
-        {"epoch": n, "loss": 1 / n, "validation_loss": 2 / n, "duration_s": 60} for n in (1, 2, 3)
-    ]
-    (run / "metrics.jsonl").write_text("\n".join(map(json.dumps, epochs)))
-    for number, distance in enumerate((100.0, 300.0)):
-        drive = folder / "drives" / f"drive-{number}"
-        drive.mkdir(parents=True)
-        store.write(an_episode(), drive / "episode.hdf5")
-        figures = {"distance_m": distance, "score": distance, "red_lights": number}
-        others = {"policy": "searcher", "town": "town03", **dict.fromkeys(KEPT, 0)}
-        (drive / "summary.json").write_text(json.dumps(figures | others))
-    return folder
-
-
-@pytest.fixture(scope="session")
-def address(folder: Path) -> Iterator[str]:
+def address(shelves: Path) -> Iterator[str]:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-    command = [sys.executable, "-m", "mjdrive", "serve", "--town", "town03", "--policy", "pid"]
-    url = f"http://127.0.0.1:{port}/"
+        url = f"http://127.0.0.1:{probe.getsockname()[1]}/"
+    choice = ["--town", "town03", "--policy", "pid", "--port", url.strip("/").rsplit(":", 1)[1]]
+    command = [sys.executable, "-m", "mjdrive", "serve", *choice]
 
     def answers() -> bool:
         assert server.poll() is None, "the server has ended"
@@ -220,7 +163,7 @@ def address(folder: Path) -> Iterator[str]:
             return False
         return True
 
-    with subprocess.Popen([*command, "--port", str(port)], cwd=folder) as server:
+    with subprocess.Popen(command, cwd=shelves) as server:
         try:
             wait(answers, "the server")
             yield url
@@ -233,17 +176,16 @@ def browser() -> Iterator[Any]:
     if CHROMIUM is None:
         pytest.skip("no Chromium on this machine")  # in CI a skipped test is a failed one
     engine = pytest.importorskip("playwright.sync_api")
+    options = {"executable_path": CHROMIUM, "args": FLAGS, "timeout": 1000 * PATIENCE}
     with engine.sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(
-            executable_path=CHROMIUM, args=FLAGS, timeout=1000 * PATIENCE
-        )
+        chromium = playwright.chromium.launch(**options)
         yield chromium
         chromium.close()
 
 
 @pytest.fixture(scope="session")
-def opened(browser: Any, address: str, folder: Path) -> Iterator[Bench]:
-    bench = Bench(browser, address, folder)
+def opened(browser: Any, address: str, shelves: Path) -> Iterator[Bench]:
+    bench = Bench(browser, address, shelves)
     yield bench
     bench.watcher.close()
 
