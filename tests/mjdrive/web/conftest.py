@@ -8,9 +8,16 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import mujoco
+import numpy as np
 import pytest
 from hatchling.builders.wheel import WheelBuilder
 
+from mjdrive.datatypes import Episode, Infraction, InfractionKind
+from mjdrive.episodes import store
+from mjdrive.vehicle import cars
+from mjdrive.vehicle.assembly import car_on_road
+from mjdrive.vehicle.car import Car
 from mjdrive.web.commands import Command
 from mjdrive.web.pace import Pace
 from mjdrive.web.roles import Standing
