@@ -1,7 +1,6 @@
 """The application from outside: what pages get, what is refused, and in what words."""
 
 import json
-import pickle
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -14,13 +13,10 @@ from starlette.testclient import TestClient, WebSocketTestSession
 
 from mjdrive.datatypes import Action
 from mjdrive.episodes import store
-from mjdrive.errors import RunError
 from mjdrive.web import browsing, server, wire
 from mjdrive.web.browsing import Shelf
 from mjdrive.web.guard import LOOPBACK, Access
-from mjdrive.web.policies import load_mind, policy_names
 from mjdrive.web.session import Session
-from mjdrive.zoo import entries
 from models import checkpoint
 
 HOME = "http://127.0.0.1:8123"
@@ -234,29 +230,3 @@ def test_damaged_summaries_and_runs_hide_no_others(client: TestClient, shelf: Sh
         (shelf.runs / name / checkpoint.STATE).write_text(text)
     assert client.get("/api/drives").json() == [{"policy": "pid"}]
     assert ["error" in it for it in client.get("/api/runs").json()] == [True, True]
-
-
-def test_runs_that_links_lead_out_to_are_not_listed(tmp_path: Path) -> None:
-    outside, runs = tmp_path / "outside", tmp_path / "runs"
-    for folder in (outside, runs / "inside", runs / ".hidden"):
-        folder.mkdir(parents=True)
-        (folder / checkpoint.STATE).write_text("{}")
-    (runs / "link").symlink_to(outside)
-    assert policy_names(runs)[0] == "inside"
-    assert not {"link", ".hidden"} & set(policy_names(runs))
-
-
-def test_weights_are_never_a_pickle(tmp_path: Path) -> None:
-    class Trap:
-        def __reduce__(self) -> tuple[object, ...]:
-            return (tmp_path.joinpath("sprung").touch, ())
-
-    run = tmp_path / "runs" / "trap"
-    shutil.copytree(entries.FOLDER / entries.DEFAULT, run)
-    for name in (checkpoint.MODEL, checkpoint.TRAINING):
-        (run / name).write_bytes(pickle.dumps(Trap()))
-    with pytest.raises(RunError):
-        load_mind("trap", run.parent)
-    assert not (tmp_path / "sprung").exists()
-    pickle.loads((run / checkpoint.MODEL).read_bytes())
-    assert (tmp_path / "sprung").exists()  # it would have
