@@ -113,11 +113,11 @@ def test_another_page_watches_until_it_is_given_control(bench: Any) -> None:
     assert other.evaluate(
         "[...document.querySelectorAll('#controls button')].every(it => it.disabled)"
     )
-    other.click("text=Ask for control")
-    bench.page.click("text=Hand over")
+    other.click("#roles button:has-text('Ask for control')")
+    bench.page.click("#roles button:has-text('Hand over')")
     bench.watcher.until(operator=theirs)
     other.wait_for_function("!document.querySelector('#wheel').disabled", polling=100)
-    bench.page.click("text=Ask for control")
-    other.click("text=Hand over")
+    bench.page.click("#roles button:has-text('Ask for control')")
+    other.click("#roles button:has-text('Hand over')")
     bench.watcher.until(operator=mine)
     other.close()
