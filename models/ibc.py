@@ -1,5 +1,7 @@
 """Implicit behavioural cloning: an energy model trained with InfoNCE against uniform negatives."""
 
+from collections.abc import Callable
+
 import torch
 from jaxtyping import Float, UInt8
 from torch import Tensor
@@ -20,7 +22,13 @@ from models.threads import one_thread
 
 
 class IbcLearner(Learner):
-    """Implicit and multimodal: an observation and an action give an energy, and a sampler finds where it is low."""
+    """Implicit and multimodal: an observation and an action give an energy, and a sampler finds where it is low.
+
+    Attributes:
+        on_candidates: Shown the candidates of each iteration where the sampler is DFO, to look at the search.
+    """
+
+    on_candidates: Callable[[Tensor], None] | None = None
 
     def __init__(self, config: LearnerConfig) -> None:
         super().__init__()
@@ -154,7 +162,9 @@ class IbcLearner(Learner):
                 start = self.experts.draw(
                     len(bev), search.num_samples, search.start, generator=generator
                 )
-                return dfo.search(energy, start, search, generator=generator).actions
+                return dfo.search(
+                    energy, start, search, generator=generator, on_candidates=self.on_candidates
+                ).actions
             slopes = self._undone_slopes(EnergySlopes(self.energy, features, settings.precision))
             walks = settings.langevin
             start = self.experts.draw(len(bev), walks.num_chains, walks.start, generator=generator)

@@ -1,8 +1,16 @@
 #!/usr/bin/env bash
-# Installs what pip cannot: OpenGL without a display, for pictures of the scene. Driving and training need none of it.
+# Installs what pip cannot: OpenGL without a display, for pictures of the scene; Chromium and npm, to test the live page and to
+# build it. Driving and training need none of it, and neither does looking at the live page.
 set -euo pipefail
 
 packages=(libegl1 libgl1-mesa-dri libopengl0 libosmesa6)
+# These may have come from elsewhere than from the distribution.
+if ! command -v chromium chromium-browser google-chrome >/dev/null; then
+    packages+=(chromium)
+fi
+if ! command -v npm >/dev/null; then
+    packages+=(nodejs npm)
+fi
 
 missing=()
 for package in "${packages[@]}"; do

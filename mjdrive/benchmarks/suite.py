@@ -55,6 +55,7 @@ SUITE = (
     Benchmark("train", "a training step of DA-IBC and of BC-Beta", "training:measure"),
     Benchmark("memory", "peak memory of training on 21,287 samples", "memory:measure"),
     Benchmark("drive", "3000 steps of driving with a policy", "closed_loop:measure"),
+    Benchmark("serve", "what pages that watch cost `mjdrive serve`", "watching:measure"),
 )
 """In the order of the table."""
 

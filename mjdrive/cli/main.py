@@ -15,6 +15,7 @@ from mjdrive.cli.export import export
 from mjdrive.cli.importing import import_
 from mjdrive.cli.info import info
 from mjdrive.cli.replay import replay
+from mjdrive.cli.serve import serve
 from mjdrive.cli.study import study
 from mjdrive.cli.towns import towns
 from mjdrive.cli.train import train
@@ -86,6 +87,7 @@ for command in (
     collect,
     train,
     drive,
+    serve,
     replay,
     export,
     import_,

@@ -96,9 +96,7 @@ def step_angle(
     return acceleration / (speed * single_track.yaw_rate_gain(speed))
 
 
-def step(
-    plant: Plant, speed_kmh: float = SPEED_KMH, *, acceleration: float = ACCELERATION
-) -> Step:
+def step(plant: Plant, speed_kmh: float = SPEED_KMH, *, acceleration: float = ACCELERATION) -> Step:
     """Turn the wheel as fast as the steering allows, to where the linear model gives an acceleration, and hold it.
 
     Args:

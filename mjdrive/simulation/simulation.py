@@ -1,6 +1,6 @@
 """One car in one town, stepped ten times a second."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import mujoco
@@ -131,11 +131,14 @@ class Simulation:
         self._rules.reset()
         self._light_lamps()
 
-    def step(self, action: Action) -> tuple[Infraction, ...]:
+    def step(
+        self, action: Action, *, on_motion: Callable[[], None] | None = None
+    ) -> tuple[Infraction, ...]:
         """Drive for one control interval.
 
         Args:
             action: What to do; values beyond [-1, 1] are clipped.
+            on_motion: Called some fifty times a second of the simulation, for whoever watches the car move.
 
         Returns:
             The infractions of this interval.
@@ -155,6 +158,8 @@ class Simulation:
             self.car.update()
             mujoco.mj_step(self.model, self.data, num_substeps)
             hits |= self._contacts.hits()
+            if on_motion is not None:
+                on_motion()
         if np.count_nonzero(self._warnings):
             require_sane(self.data)
         self._num_steps += 1

@@ -34,6 +34,7 @@ def search(
     config: DfoConfig,
     *,
     generator: torch.Generator,
+    on_candidates: Callable[[Tensor], None] | None = None,
 ) -> DfoResult:
     """Search for actions of low energy.
 
@@ -44,6 +45,7 @@ def search(
         start: First candidates [-].
         config: Iterations, noise and final choice.
         generator: Source of chance, on the device of the candidates.
+        on_candidates: Shown the candidates of each iteration, shape (B, N, 2) [-], to look at the search.
 
     Returns:
         The chosen actions, and the candidates and energies that they were chosen from.
@@ -56,6 +58,8 @@ def search(
     # n resamplings with exp(-E) leave about exp(-n E); with exp(-E / n) the product is exp(-E) again.
     temperature = float(config.iterations) if config.temper else 1.0
     energies = energy(candidates)
+    if on_candidates is not None:
+        on_candidates(candidates)
     for resampling in range(1, config.iterations):
         probabilities = torch.softmax(-energies / temperature, dim=1)
         drawn = draw_ascending(probabilities, candidates.shape[1], generator=generator)
@@ -68,6 +72,8 @@ def search(
             accepted = _metropolis(rise, generator)
             candidates = torch.where(accepted[..., None], candidates, kept)
             energies = torch.where(accepted, energies, energies_kept)
+        if on_candidates is not None:
+            on_candidates(candidates)
         sigma *= config.shrink
     if config.choice == "argmin":
         chosen = energies.argmin(dim=1, keepdim=True)

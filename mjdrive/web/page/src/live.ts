@@ -1,0 +1,162 @@
+// The live tab: what the server tells goes to the panels, what people want goes to the server.
+import { asked, remember } from "./address";
+import { BevPanel } from "./bev";
+import { CAMERAS, type CameraName } from "./cameras";
+import { ChartsPanel } from "./charts";
+import { fetchMessage, type Message } from "./codec";
+import { $, COLORS, make, say } from "./dom";
+import { showCounts } from "./infractions";
+import { LandscapePanel } from "./landscape";
+import type { Infraction, State } from "./link";
+import { MapPanel } from "./map";
+import { View } from "./view";
+
+const DRAW_MS = 100;
+const ENOUGH = 0.95; // of the speed that is asked for; below it the simulation is late
+
+export class Live {
+  readonly bev = new BevPanel();
+  readonly charts = new ChartsPanel();
+  readonly landscape: LandscapePanel;
+  readonly map: MapPanel;
+  readonly view: View | null;
+  panels = 0;
+  poses = 0;
+  town = "";
+  isReplaying = false;
+  private speed = 1;
+  private isDrawDue = false;
+  private shownInfractions = "";
+
+  constructor(send: (command: object) => void, seek: (time: number) => void) {
+    this.landscape = new LandscapePanel((acceleration, steering) => { if (!this.isReplaying) send({ op: "force", acceleration, steering }); });
+    this.map = new MapPanel(seek);
+    this.view = this.openView();
+    this.addCameras();
+    new ResizeObserver(() => this.redraw()).observe($("panels"));
+  }
+
+  /** Load the scene that is driven, or that of a town that is only looked at. */
+  async loadScene(town?: string): Promise<void> {
+    const scene = await fetchMessage(town ? `api/scene?town=${encodeURIComponent(town)}` : "api/scene");
+    this.town = scene.head.town;
+    this.view?.setTown(scene);
+    this.map.setTown(scene);
+    this.map.draw();
+  }
+
+  hear(message: Message): void {
+    if (this.isReplaying) return;
+    if (message.kind === "pose") this.hearPose(message);
+    else if (message.kind === "panel") this.hearPanel(message);
+    else if (message.kind === "history") {
+      this.map.setTrail(message.blobs.rows as Float32Array);
+      this.charts.set(message.blobs.rows as Float32Array);
+      this.landscape.forget();
+    }
+  }
+
+  setState(state: State): void {
+    this.speed = state.speed;
+    if (this.isReplaying) return;
+    this.landscape.isPaused = state.paused;
+    this.setInfractions(state.infractions);
+    const yours = state.wheel === "yours", badge = $("badge");
+    const who = yours ? `You drive${state.recorded ? ` · ${(state.recorded / 10).toFixed(0)} s recorded` : ""}`
+      : state.wheel === "taken" ? `Page ${state.driver} drives` : `${state.policy} drives`;
+    say(badge, state.paused ? `${who} · paused` : who);
+    badge.classList.toggle("yours", yours);
+    badge.classList.toggle("theirs", state.wheel === "taken");
+    $("fault").hidden = !state.fault;
+    say($("fault"), state.fault ? `The drive has stopped. ${state.fault}` : "");
+  }
+
+  setInfractions(infractions: Infraction[]): void {
+    const key = JSON.stringify(infractions);
+    if (key === this.shownInfractions) return;
+    this.shownInfractions = key;
+    this.map.setInfractions(infractions);
+    this.map.draw();
+    showCounts(infractions);
+  }
+
+  showMotion(time: number, speed: number, acceleration: number, steering: number): void {
+    say($("clock"), `${time.toFixed(1)} s`);
+    say($("kmh"), Math.abs(speed * 3.6).toFixed(0));
+    bar($("steer-bar"), -steering);
+    bar($("pedal-bar"), acceleration);
+    $("pedal-bar").style.background = acceleration >= 0 ? COLORS.acceleration : COLORS.car;
+  }
+
+  chooseCamera(name: CameraName): void {
+    this.view?.choose(name);
+    document.querySelectorAll<HTMLElement>("#cameras button").forEach((it) => it.setAttribute("aria-checked", String(it.textContent === name)));
+    remember({ camera: name === "chase" ? null : name });
+  }
+
+  nextCamera(): void {
+    if (this.view) this.chooseCamera(CAMERAS[(CAMERAS.indexOf(this.view.cameras.name) + 1) % CAMERAS.length]);
+  }
+
+  redraw(): void { this.landscape.draw(); this.map.draw(); this.charts.draw(); }
+
+  private hearPose({ head, blobs }: Message): void {
+    this.poses++;
+    this.view?.setPose(blobs.q as Float32Array);
+    this.showMotion(head.t, head.speed, head.action[0], head.action[1]);
+    this.landscape.isLate = head.rate < ENOUGH * this.speed;
+    say($("rate"), `${head.rate.toFixed(2)}× real time`);
+  }
+
+  private hearPanel(message: Message): void {
+    const { head, blobs, shapes } = message;
+    this.panels++;
+    this.bev.show(blobs.bev, shapes.bev[1]);
+    this.view?.town?.showLights(blobs.lights as Uint8Array);
+    this.landscape.show(message);
+    this.map.setLights(blobs.lights);
+    this.map.move(head.x, head.y, head.yaw);
+    this.charts.add([head.t, head.x, head.y, head.speed, ...head.driven]);
+    say($("bev-tick"), `tick ${head.tick}`);
+    this.drawSoon();
+  }
+
+  /** Ten times a second at most, and once more after the last. */
+  private drawSoon(): void {
+    if (this.isDrawDue) return;
+    this.isDrawDue = true;
+    setTimeout(() => {
+      this.isDrawDue = false;
+      if (this.isReplaying) return;
+      this.map.draw();
+      this.charts.draw();
+    }, DRAW_MS);
+  }
+
+  private openView(): View | null {
+    try {
+      return new View($<HTMLCanvasElement>("gl"), asked("noaa") === null);
+    } catch {
+      $("gl").hidden = $("cameras").hidden = true;
+      $("no-gl").hidden = false;
+      document.body.classList.add("flat");
+      return null;
+    }
+  }
+
+  private addCameras(): void {
+    $("cameras").append(...CAMERAS.map((name) => {
+      const button = make("button", { type: "button", textContent: name, role: "radio", ariaChecked: String(name === "chase") });
+      button.onclick = () => this.chooseCamera(name);
+      return button;
+    }));
+    const wanted = CAMERAS.find((it) => it === asked("camera"));
+    if (wanted) this.chooseCamera(wanted);
+  }
+}
+
+/** A bar from the middle; -1 to the left, 1 to the right. */
+function bar(element: HTMLElement, value: number): void {
+  element.style.left = `${50 + 50 * Math.min(value, 0)}%`;
+  element.style.width = `${50 * Math.abs(value)}%`;
+}

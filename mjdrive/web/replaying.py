@@ -1,0 +1,91 @@
+"""Episode -> one message with all that the page needs to replay it.
+
+rows         as in "history"
+poses        position [m] and quaternion of each body of the car at each step, (T, N, 7)
+infractions  in the head: kind, time [s], x, y [m], cause
+"""
+
+from functools import lru_cache
+
+import mujoco
+import numpy as np
+from jaxtyping import Float, UInt8
+
+from mjdrive.bev.projector import BevProjector
+from mjdrive.datatypes import Episode
+from mjdrive.errors import DataError
+from mjdrive.town import library
+from mjdrive.vehicle import cars
+from mjdrive.vehicle.assembly import car_on_road
+from mjdrive.vehicle.car import Car
+from mjdrive.web import wire
+
+TIMESTEP = 0.005
+"""Of a model that only stands where it is told [s]."""
+
+
+def episode_message(episode: Episode, name: str) -> bytes:
+    """Tell a whole drive.
+
+    Args:
+        episode: The drive.
+        name: How the page calls it.
+
+    Raises:
+        DataError: If another car drove than one that comes with mjdrive.
+    """
+    rows = np.column_stack(
+        [episode.time, episode.vehicle[:, :2], episode.vehicle[:, 3], episode.actions]
+    )
+    head = {
+        "name": name,
+        "town": episode.town,
+        "policy": episode.policy,
+        "seed": episode.seed,
+        "source": episode.metadata.get("source", "drive"),
+        "infractions": [
+            [it.kind.name.lower(), round(it.time, 1), round(it.x, 1), round(it.y, 1), it.cause]
+            for it in episode.infractions
+        ],
+    }
+    blobs = {"rows": rows.astype(np.float32), "poses": body_poses(episode)}
+    return wire.pack("episode", head, blobs)
+
+
+def body_poses(episode: Episode) -> Float[np.ndarray, "T N 7"]:
+    """Where each body of the car was at each step: position [m] and quaternion, in single precision.
+
+    Raises:
+        DataError: If another car drove than one that comes with mjdrive.
+    """
+    name = episode.metadata.get("car", cars.DEFAULT)
+    if name not in cars.SHIPPED:
+        raise DataError(
+            f"The car '{name}' drove this episode; the page replays those that come with mjdrive: "
+            f"{', '.join(cars.SHIPPED)}."
+        )
+    model = car_on_road(timestep=TIMESTEP, car=cars.load(name).path).compile()
+    data = mujoco.MjData(model)
+    car = Car(model, data)
+    poses = np.empty((len(episode.time), model.nbody - 1, 7), np.float32)
+    for step, physics in enumerate(episode.physics):
+        car.restore(physics)
+        poses[step, :, :3], poses[step, :, 3:] = data.xpos[1:], data.xquat[1:]
+    return poses
+
+
+def view_at(episode: Episode, step: int) -> UInt8[np.ndarray, "5 S S"]:
+    """The bird's-eye view at a step."""
+    x, y, yaw, *_ = episode.vehicle[step]
+    return _projector(episode.town).project(
+        x=float(x),
+        y=float(y),
+        yaw=float(yaw),
+        time=float(episode.time[step]),
+        light_phase=episode.light_phase,
+    )
+
+
+@lru_cache(maxsize=2)
+def _projector(town: str) -> BevProjector:
+    return BevProjector(library.load(town))

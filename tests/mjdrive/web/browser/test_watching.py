@@ -1,0 +1,114 @@
+"""What a page shows of a drive, and how it is paused, stepped and looked into."""
+
+import io
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+pytestmark = pytest.mark.timeout(900)
+
+PIXELS = "[...document.querySelector('#bev').getContext('2d').getImageData(0, 0, 192, 192).data]"
+
+
+def test_the_car_is_seen_in_its_town_from_four_sides(bench: Any) -> None:
+    page = bench.open(webgl=True)
+    page.wait_for_function("mjdrive.live.view.rendered > 2 && mjdrive.live.poses > 1", polling=100)
+    assert 5 < page.evaluate("mjdrive.live.view.calls") < 60
+    picture = Image.open(io.BytesIO(page.locator("#gl").screenshot())).convert("RGB")
+    rgb = np.asarray(picture).astype(int)
+    assert len(np.unique(rgb.reshape(-1, 3), axis=0)) > 100
+    middle = rgb[rgb.shape[0] // 3 :, rgb.shape[1] // 3 : -rgb.shape[1] // 3]
+    red = (middle[..., 0] > 100) & (middle[..., 0] > 2 * middle[..., 1])
+    assert red.mean() > 0.01
+    places = set()
+    for name in ("hood", "top", "orbit", "chase"):
+        rendered = page.evaluate("mjdrive.live.view.rendered")
+        page.click(f"#cameras >> text={name}")
+        page.wait_for_function(f"mjdrive.live.view.rendered > {rendered + 1}", polling=100)
+        look = (
+            "mjdrive.live.view.cameras.camera.matrix.elements.slice(0, 11)"  # no place: it moves on
+        )
+        places.add(str([round(it, 2) for it in page.evaluate(f"[...{look}]")]))
+        assert ("camera=" in page.url) == (name != "chase")
+    assert len(places) == 4
+    page.close()
+
+
+def test_panels_follow_the_drive_of_the_server(bench: Any) -> None:
+    tick = bench.watcher.panel["tick"]
+    bench.see(f"parseInt(document.querySelector('#bev-tick').textContent.slice(5)) > {tick}")
+    shown = int(bench.page.inner_text("#bev-tick").removeprefix("tick "))
+    bench.wait(lambda: bench.watcher.panel["tick"] >= shown, "the server to have been there")
+
+
+def test_paused_it_waits_and_a_step_is_one_decision(bench: Any) -> None:
+    bench.page.click("#pause")
+    tick = bench.watcher.pause()["tick"]
+    for number in (1, 2):
+        bench.page.keyboard.press(".")
+        bench.wait(lambda number=number: bench.watcher.panel["tick"] >= tick + number, "a step")
+        assert bench.watcher.pause()["tick"] == tick + number
+    bench.see(f"document.querySelector('#bev-tick').textContent === 'tick {tick + 2}'")
+
+
+def test_speed_and_seed_are_chosen_for_the_server(bench: Any) -> None:
+    bench.page.select_option("#speed-factor", "4")
+    bench.watcher.until(speed=4.0)
+    bench.page.select_option("#speed-factor", "1")
+    bench.watcher.until(speed=1.0)
+    seed = bench.watcher.state["seed"] + 1
+    bench.page.fill("#seed", str(seed))
+    bench.page.keyboard.press("Enter")
+    bench.watcher.until(seed=seed)
+    assert f"seed={seed}" in bench.page.url
+
+
+def test_a_reset_begins_the_drive_again(bench: Any) -> None:
+    bench.wait(lambda: bench.watcher.panel["tick"] > 3, "some way")
+    bench.page.click("#pause")
+    before = bench.watcher.pause()["tick"]
+    bench.page.keyboard.press("Backspace")
+    bench.wait(lambda: bench.watcher.panel["tick"] < before, "the beginning")
+    assert bench.watcher.panel["tick"] == 0
+
+
+def test_a_channel_that_is_switched_off_is_not_drawn(bench: Any) -> None:
+    bench.page.click("#pause")
+    tick = bench.watcher.pause()["tick"]
+    bench.see(f"document.querySelector('#bev-tick').textContent === 'tick {tick}'")
+    whole = bench.page.evaluate(PIXELS)
+    bench.page.uncheck("#channels [aria-label=road]")
+    without_road = bench.page.evaluate(PIXELS)
+    bench.page.check("#channels [aria-label=road]")
+    assert without_road != whole
+    assert bench.page.evaluate(PIXELS) == whole
+
+
+def test_the_search_is_shown_by_iteration_and_a_click_forces_an_action(bench: Any) -> None:
+    bench.page.select_option("#policy", "searcher")
+    bench.watcher.until(policy="searcher")
+    bench.page.click("#pause")
+    tick = bench.watcher.pause()["tick"]  # a paused decision always has its landscape
+    bench.see("document.querySelectorAll('[aria-label^=Iteration] button').length === 4")
+    bench.page.hover("#energy", position={"x": 120, "y": 60})
+    bench.see("/nats.* below the best/.test(document.querySelector('#energy-say').textContent)")
+    box = bench.page.locator("#energy").bounding_box()
+    width, height = box["width"] - 90, box["height"] - 40  # the plot, between its axes
+    bench.page.click("#energy", position={"x": 44 + 0.25 * width, "y": 6 + 0.75 * height})
+    bench.wait(lambda: bench.watcher.panel["tick"] == tick + 1, "the forced step")
+    assert bench.watcher.panel["driven"] == pytest.approx([-0.5, 0.5], abs=0.03)
+
+
+def test_arrow_keys_and_enter_force_an_action_without_a_mouse(bench: Any) -> None:
+    bench.page.click("#pause")
+    panel = bench.watcher.pause()
+    tick, (acceleration, steering) = panel["tick"], panel["action"]
+    bench.see(f"document.querySelector('#energy-tick').textContent === 'tick {tick}'")
+    bench.page.focus("#energy")
+    for key in ("ArrowDown", "ArrowLeft", "Enter"):
+        bench.page.keyboard.press(key)
+    bench.wait(lambda: bench.watcher.panel["tick"] == tick + 1, "the forced step")
+    wanted = [max(acceleration - 1 / 32, -1.0), min(steering + 1 / 32, 1.0)]
+    assert bench.watcher.panel["driven"] == pytest.approx(wanted, abs=1e-3)
