@@ -47,6 +47,11 @@ def test_same_seed_acts_alike_and_each_reset_starts_over(run: Path) -> None:
     assert drives[0] != drives[2]
 
 
+def held(policy: pilot.Pilot, hold: int) -> None:
+    commitment = dataclasses.replace(policy.config.commitment, hold=hold)
+    policy.config = dataclasses.replace(policy.config, commitment=commitment)
+
+
 def test_choices_last_as_long_as_the_settings_say_and_end_with_the_drive(
     run: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -57,10 +62,10 @@ def test_choices_last_as_long_as_the_settings_say_and_end_with_the_drive(
         "act",
         lambda *_, generator, sides: given.append(sides) or torch.zeros(1, 2),
     )
+    held(policy, 0)
     policy.act(SEEN)
-    assert given == [None], "by default nothing lasts"
-    commitment = dataclasses.replace(policy.config.commitment, hold=20)
-    policy.config = dataclasses.replace(policy.config, commitment=commitment)
+    assert given == [None]
+    held(policy, 20)
     policy.reset(0)
     given.clear()
     for _ in range(600):
@@ -134,6 +139,7 @@ def test_what_it_sees_goes_to_its_device(run: Path, monkeypatch: pytest.MonkeyPa
     elsewhere = torch.device("meta")
     monkeypatch.setattr(torch, "Generator", lambda device: None)
     policy = pilot.load(run, device=elsewhere)
+    held(policy, 0)  # no chance to draw there
     seen = []
 
     def act(
