@@ -129,7 +129,7 @@ class Bench:
 
     def reset(self) -> None:
         """The live tab, nobody at the wheel, the expert drives."""
-        self.page.keyboard.press("1")
+        self.page.click("#tab-live")
         if self.page.evaluate("mjdrive.replay.isOpen"):
             self.page.click("text=Back to live")
         if self.watcher.state["driver"]:
