@@ -35,7 +35,7 @@ check: install  ## Lint, types, import contracts and tests: exactly what CI runs
 	$(BIN)/typos
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	$(BIN)/pytest --numprocesses auto $(if $(NOTEBOOKS),--nbmake notebooks) tests
+	$(BIN)/pytest --numprocesses auto --dist loadgroup $(if $(NOTEBOOKS),--nbmake notebooks) tests
 
 test: check  ## The same
 

@@ -5,6 +5,7 @@ import contextlib
 from collections.abc import AsyncIterator
 from pathlib import Path
 
+import anyio
 from starlette.applications import Starlette
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
@@ -115,7 +116,8 @@ async def _serve(websocket: WebSocket, hub: Hub, simulator: Simulator) -> None:
         hub.remove(outbox)
         simulator.inbox.leave(outbox)
         pump.cancel()
-        await asyncio.gather(pump, return_exceptions=True)  # it may have met the end before us
+        with anyio.CancelScope(shield=True):  # who ends us must not end this, too
+            await asyncio.gather(pump, return_exceptions=True)  # it may have met the end before us
 
 
 def _hear(message: str, outbox: Outbox, simulator: Simulator) -> None:

@@ -51,6 +51,7 @@ def test_a_person_drives_on_when_the_policy_raises(
     desk: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(desk.session.mind, "decide", failing(ValueError("no idea")))
+    monkeypatch.setattr("mjdrive.web.narrator.PANEL_INTERVAL", 0.0)  # however quick this machine is
     desk.say("first", "wheel", on=True)
     desk.turn(3)
     assert not desk.notebook.values["paused"]

@@ -17,6 +17,14 @@ from websockets.sync.client import connect
 
 from mjdrive.web import wire
 
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Let one process run all of these, so that there is one browser and one server at a time."""
+    for item in items:
+        if item.path.parent == Path(__file__).parent:
+            item.add_marker(pytest.mark.xdist_group("browser"))
+
+
 CHROMIUM = which("chromium") or which("chromium-browser") or which("google-chrome")
 FLAGS = [f"--disable-{it}" for it in ("dev-shm-usage", "quic", "component-update", "sync")]
 FLAGS += ["--no-sandbox", "--no-first-run", "--disable-background-networking"]
