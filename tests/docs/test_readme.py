@@ -24,6 +24,7 @@ PAGES = [
         "docs/cars.md",
         "docs/experts.md",
         "docs/recordings.md",
+        "docs/results.md",
         "docs/study.md",
         "docs/zoo.md",
         "docs/notebooks.md",
