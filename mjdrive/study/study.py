@@ -76,9 +76,8 @@ class Study:
             WorkerError: If a process was lost.
         """
         require_buildable(self.config)
-        situations(
-            library.load(self.config.town)
-        )  # which later stages look at, so that a town without them is refused
+        # Later stages look at them, so a town without any is refused.
+        situations(library.load(self.config.town))
         self._require_data()
         given = self._given_runs()
         begin(self.folder, self._record(given))

@@ -3,7 +3,7 @@
 from mjdrive.config import Arm, Variant
 
 LONG = ("optimiser.epochs=4", "optimiser.batch_size=64")
-"""How long agents of a standard study learn from 100 km: some 19,000 steps, ten times those of a standard run on ten routes."""
+"""How long agents of a standard study learn from 100 km: some 19,000 steps, nine times those of a standard run on ten routes."""
 
 LONG_STEEP = (*LONG, "optimiser.learning_rate=6e-4")
 """The same for methods with a large step size, which smaller minibatches make smaller."""

@@ -12,7 +12,7 @@ UNDISTURBED = Demonstrations("undisturbed", preset="paper")
 """Demonstrations without disturbances, as the paper's."""
 
 WALKED_KM = 100.0
-"""What agents of a standard study learn from: fifteen times the ten routes, by a random walk that leaves out no turn [km]."""
+"""What agents of a standard study learn from: fourteen times the ten routes, by random walks [km]."""
 
 _GENTLE = ("bc-beta", "bc-mixture")
 """Methods whose step size is small anyway."""
