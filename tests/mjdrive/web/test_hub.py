@@ -6,6 +6,7 @@ import json
 from collections.abc import Awaitable, Callable
 
 import numpy as np
+from anyio.from_thread import start_blocking_portal
 
 from mjdrive.web import wire
 from mjdrive.web.hub import POSES_WHILE_HIDDEN, Hub
@@ -38,12 +39,15 @@ class Page:
 
 
 def play(scenario: Callable[[Hub], Awaitable[None]]) -> None:
+    """Play it in a thread of its own: in this one a browser's loop may run."""
+
     async def attached() -> None:
         hub = Hub()
         hub.attach(asyncio.get_running_loop())
         await scenario(hub)
 
-    asyncio.run(attached())
+    with start_blocking_portal() as portal:
+        portal.call(attached)
 
 
 def test_each_page_is_told_who_it_is_and_who_drives() -> None:

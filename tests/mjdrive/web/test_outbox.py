@@ -2,6 +2,9 @@
 
 import asyncio
 import contextlib
+from collections.abc import Awaitable, Callable
+
+from anyio.from_thread import start_blocking_portal
 
 from mjdrive.web.outbox import WINDOW, Outbox
 
@@ -18,6 +21,12 @@ class Page:
 
     async def send_text(self, message: str) -> None:
         self.heard.append(message)
+
+
+def play(scenario: Callable[[], Awaitable[None]]) -> None:
+    """Play it in a thread of its own: in this one a browser's loop may run."""
+    with start_blocking_portal() as portal:
+        portal.call(scenario)
 
 
 async def pumped(outbox: Outbox) -> None:
@@ -42,7 +51,7 @@ def test_a_page_that_acknowledges_nothing_gets_a_window_and_then_the_newest() ->
         await pumped(outbox)
         assert page.got[-1] == b"99"
 
-    asyncio.run(scenario())
+    play(scenario)
 
 
 def test_kinds_do_not_take_each_others_place() -> None:
@@ -56,7 +65,7 @@ def test_kinds_do_not_take_each_others_place() -> None:
         assert sorted(page.got) == [b"panel", b"pose"]
         assert page.heard == ["state"]
 
-    asyncio.run(scenario())
+    play(scenario)
 
 
 def test_a_page_cannot_acknowledge_what_was_not_sent() -> None:
@@ -66,4 +75,4 @@ def test_a_page_cannot_acknowledge_what_was_not_sent() -> None:
         outbox.acknowledge(1_000_000)
         assert outbox.acknowledged == 0
 
-    asyncio.run(scenario())
+    play(scenario)

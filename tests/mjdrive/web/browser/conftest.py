@@ -18,8 +18,12 @@ from websockets.sync.client import connect
 from mjdrive.web import wire
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Let one process run all of these, so that there is one browser and one server at a time."""
+    """Let one process run all of these, so that there is one browser and one server at a time.
+
+    First, because what hands out tests to processes reads the groups in the same hook.
+    """
     for item in items:
         if item.path.parent == Path(__file__).parent:
             item.add_marker(pytest.mark.xdist_group("browser"))
