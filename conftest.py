@@ -12,6 +12,16 @@ ALLOWED_REASONS = ("no GPU",) + (
 """Beginnings of reasons for which CI, too, may skip: it has no GPU, and CARLA's own maps only where they are given."""
 
 
+NOTEBOOK_TIMEOUT = 900
+"""A notebook trains, drives and draws: more than any one test, and on a busy machine more than tests may take [s]."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    for item in items:
+        if item.path.suffix == ".ipynb":
+            item.add_marker(pytest.mark.timeout(NOTEBOOK_TIMEOUT))
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport() -> Generator[None, pytest.TestReport, pytest.TestReport]:
     report = yield

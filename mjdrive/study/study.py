@@ -17,9 +17,10 @@ from mjdrive.study.assembling import assemble
 from mjdrive.study.jobs import checkpoints
 from mjdrive.study.jobs.collecting import collections
 from mjdrive.study.jobs.drivers import load_learner
-from mjdrive.study.jobs.driving import Place, Report, drive_all
+from mjdrive.study.jobs.driving import Place, drive_all
 from mjdrive.study.jobs.forks import live_forks
 from mjdrive.study.jobs.judging import Judging, judge_all
+from mjdrive.study.jobs.sharing import Report
 from mjdrive.study.jobs.training import TrainingJob, train_all
 from mjdrive.study.plan import ArmPlan, plan_arms, plan_progress, plan_references
 from mjdrive.study.records.folder import HELD_OUT, StudyFolder, begin

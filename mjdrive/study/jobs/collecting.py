@@ -9,7 +9,7 @@ from mjdrive.datatypes import Route, Town
 from mjdrive.episodes import demonstrations, presets
 from mjdrive.episodes.plan import lay_routes, plan
 from mjdrive.execution.work import Executor
-from mjdrive.study.jobs.driving import Report
+from mjdrive.study.jobs.sharing import Report
 from mjdrive.study.records.folder import HELD_OUT, StudyFolder
 from mjdrive.town import library
 

@@ -1,7 +1,6 @@
 """Make the drives of a study: all that are missing, whoever drives, on as many processes as one likes."""
 
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import closing
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -15,14 +14,12 @@ from mjdrive.files import write_atomically
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.study.jobs import drivers
 from mjdrive.study.jobs.drivers import Who
+from mjdrive.study.jobs.sharing import Report, do_all
 from mjdrive.study.records import folder
 from mjdrive.study.records.drive_records import DriveRecord, record
 from mjdrive.town import library
 from mjdrive.vehicle import cars
 from mjdrive.vehicle.cars import CarModel
-
-Report = Callable[[str, int, int], None]
-"""Told the name of something that is worked on, how much of it is done, and how much there is; at the end both are equal."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,21 +111,20 @@ def drive_all(
         WorkerError: If a process was lost.
     """
 
-    def on_progress(job: DriveJob, done: int) -> None:
-        report(job.name, min(done, job.num_steps - 1), job.num_steps)
+    def keep(job: DriveJob, driven: Driven) -> None:
+        write_atomically(_episode_file(job), driven.episode)
+        config.write_json(driven.record, _record_file(job))
 
-    missing = [job for job in jobs if read_record(job) is None]
-    for job in set(jobs) - set(missing):
-        report(job.name, job.num_steps, job.num_steps)
-    if not missing:
-        return
-    # The longest first, so that nobody is left with one when the others are done; else in order, one network at a time.
-    missing.sort(key=lambda job: -job.num_steps)
-    with closing(executor.run(StudyDriving(place), missing, on_progress=on_progress)) as results:
-        for job, driven in results:
-            write_atomically(_episode_file(job), driven.episode)
-            config.write_json(driven.record, _record_file(job))
-            report(job.name, job.num_steps, job.num_steps)
+    do_all(
+        StudyDriving(place),
+        # The longest first; else in order, one network at a time.
+        sorted(jobs, key=lambda job: -job.num_steps),
+        size=lambda job: job.num_steps,
+        is_done=lambda job: read_record(job) is not None,
+        keep=keep,
+        executor=executor,
+        report=report,
+    )
 
 
 def read_record(job: DriveJob) -> DriveRecord | None:

@@ -2,7 +2,6 @@
 
 import functools
 from collections.abc import Callable, Sequence
-from contextlib import closing
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -17,7 +16,8 @@ from mjdrive.execution.work import Executor, Tell
 from mjdrive.files import write_atomically
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.study.jobs.drivers import Who, load_pilot
-from mjdrive.study.jobs.driving import Place, Report
+from mjdrive.study.jobs.driving import Place
+from mjdrive.study.jobs.sharing import Report, do_all
 from mjdrive.study.records import fans, folder
 from mjdrive.study.records.fans import FanRecord
 from mjdrive.study.records.results import Turn
@@ -127,19 +127,15 @@ def live_forks(
         RunError: If the run of an agent cannot be loaded.
         WorkerError: If a process was lost.
     """
-
-    def on_progress(job: ForkJob, done: int) -> None:
-        report(job.name, min(done, job.num_rollouts - 1), job.num_rollouts)
-
-    missing = [job for job in jobs if read_record(job) is None]
-    for job in set(jobs) - set(missing):
-        report(job.name, job.num_rollouts, job.num_rollouts)
-    if not missing:
-        return
-    with closing(executor.run(Forking(place), missing, on_progress=on_progress)) as results:
-        for job, lived in results:
-            config.write_json(_kept(job, lived, place.town), job.file)
-            report(job.name, job.num_rollouts, job.num_rollouts)
+    do_all(
+        Forking(place),
+        jobs,
+        size=lambda job: job.num_rollouts,
+        is_done=lambda job: read_record(job) is not None,
+        keep=lambda job, lived: config.write_json(_kept(job, lived, place.town), job.file),
+        executor=executor,
+        report=report,
+    )
 
 
 def read_record(job: ForkJob) -> ForkRecord | None:

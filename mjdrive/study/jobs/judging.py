@@ -1,7 +1,6 @@
 """Ask the agents of a study what they think: of what the expert did, and of every action at the moments of the pictures."""
 
 from collections.abc import Callable, Sequence
-from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
@@ -14,8 +13,9 @@ from mjdrive.episodes import dataset
 from mjdrive.execution.work import Executor, Tell
 from mjdrive.study.jobs import landscapes
 from mjdrive.study.jobs.drivers import Who, load_learner
-from mjdrive.study.jobs.driving import Place, Report
+from mjdrive.study.jobs.driving import Place
 from mjdrive.study.jobs.held_out import HeldOut, held_out, judge
+from mjdrive.study.jobs.sharing import Report, do_all
 from mjdrive.study.records import folder
 from mjdrive.study.records.measures import LandscapeFigures, Likelihood
 from mjdrive.study.records.results import LandscapeRecord
@@ -125,15 +125,15 @@ def judge_all(
         RunError: If the run of an agent cannot be loaded.
         WorkerError: If a process was lost.
     """
-    missing = [job for job in jobs if read_record(job) is None]
-    for job in set(jobs) - set(missing):
-        report(job.name, 1, 1)
-    if not missing:
-        return
-    with closing(executor.run(work, missing, on_progress=lambda job, done: None)) as results:
-        for job, judged in results:
-            config.write_json(_kept(job, judged), job.file)
-            report(job.name, 1, 1)
+    do_all(
+        work,
+        jobs,
+        size=lambda job: 1,
+        is_done=lambda job: read_record(job) is not None,
+        keep=lambda job, judged: config.write_json(_kept(job, judged), job.file),
+        executor=executor,
+        report=report,
+    )
 
 
 def read_record(job: JudgeJob) -> JudgeRecord | None:

@@ -1,7 +1,7 @@
 """Train the agents of a study, each in a run folder of its own that can be gone on with."""
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import closing, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,6 +12,7 @@ from mjdrive.execution.work import Executor, Tell
 from mjdrive.learning import runs
 from mjdrive.learning.training import train
 from mjdrive.study.jobs.checkpoints import keep_epoch
+from mjdrive.study.jobs.sharing import Report, do_all
 from models.config import LearnerConfig
 from models.progress import StepReport
 
@@ -63,9 +64,7 @@ class Training:
         return _train
 
 
-def train_all(
-    jobs: Sequence[TrainingJob], *, executor: Executor, report: Callable[[str, int, int], None]
-) -> None:
+def train_all(jobs: Sequence[TrainingJob], *, executor: Executor, report: Report) -> None:
     """Train every run.
 
     Args:
@@ -77,14 +76,15 @@ def train_all(
         DataError: If the demonstrations are missing, unfinished or damaged.
         RunError: If a run folder holds a run with other settings, or training fails.
     """
-
-    def on_progress(job: TrainingJob, done: int) -> None:
-        report(job.name, min(done, job.num_steps - 1), job.num_steps)
-
-    work = Training(versions.all_versions())
-    with closing(executor.run(work, jobs, on_progress=on_progress)) as results:
-        for job, _ in results:
-            report(job.name, job.num_steps, job.num_steps)
+    do_all(
+        Training(versions.all_versions()),
+        jobs,
+        size=lambda job: job.num_steps,
+        is_done=lambda job: False,  # a run that is whole is checked, and goes on with nothing
+        keep=lambda job, _: None,  # its folder is all there is of it
+        executor=executor,
+        report=report,
+    )
 
 
 def _train(job: TrainingJob, tell: Tell) -> None:
