@@ -71,10 +71,10 @@ class BcBetaLearner(Learner):
         state: Float[Tensor, "B 3"],
         *,
         generator: torch.Generator,
-        sides: Float[Tensor, "B 3"] | None = None,
+        noise: Float[Tensor, " B"] | None = None,
     ) -> Float[Tensor, "B 2"]:
         """Mode, mean or a sample of the distribution, as the settings say."""
-        del sides
+        del noise
         with one_thread():
             distribution = self.distribution(bev, state)
         alpha, beta = distribution.concentration1, distribution.concentration0

@@ -63,7 +63,7 @@ class BcGridLearner(Learner):
         state: Float[Tensor, "B 3"],
         *,
         generator: torch.Generator,
-        sides: Float[Tensor, "B 3"] | None = None,
+        noise: Float[Tensor, " B"] | None = None,
     ) -> Float[Tensor, "B 2"]:
         """The densest point, or one drawn from the grid, as the settings say."""
         settings = self.config.categorical
@@ -76,11 +76,10 @@ class BcGridLearner(Learner):
             return actions[log_densities.argmax(dim=1)]
         # The density is tempered, so that the coldest sample is the densest point.
         log_weights = log_densities / settings.temperature + log_areas
-        if sides is None:
+        if noise is None:
             drawn = draw_categorical(torch.softmax(log_weights, dim=1), 1, generator=generator)
         else:
-            split = self.config.commitment.split
-            drawn = draw_committed(log_weights, sides, split=split, generator=generator)
+            drawn = draw_committed(log_weights, noise, generator=generator)
         return actions[drawn.squeeze(1)]
 
     @torch.no_grad()

@@ -81,10 +81,10 @@ class BcMixtureLearner(Learner):
         state: Float[Tensor, "B 3"],
         *,
         generator: torch.Generator,
-        sides: Float[Tensor, "B 3"] | None = None,
+        noise: Float[Tensor, " B"] | None = None,
     ) -> Float[Tensor, "B 2"]:
         """Mode, mean or a sample of the mixture, as the settings say."""
-        del sides
+        del noise
         with one_thread():
             log_weights, components = self.mixture(bev, state)
         if self.config.beta.inference == "mode":

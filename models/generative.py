@@ -97,10 +97,10 @@ class GenerativeLearner(Learner):
         state: Float[Tensor, "B 3"],
         *,
         generator: torch.Generator,
-        sides: Float[Tensor, "B 3"] | None = None,
+        noise: Float[Tensor, " B"] | None = None,
     ) -> Float[Tensor, "B 2"]:
         """Encode once, then turn one noise an observation into an action."""
-        del sides
+        del noise
         with one_thread():
             observed = self.denoiser.observe(self.encoder(bev, state))
             shape = (len(observed), 1, ACTION_SIZE)

@@ -140,7 +140,7 @@ class IbcLearner(Learner):
         state: Float[Tensor, "B 3"],
         *,
         generator: torch.Generator,
-        sides: Float[Tensor, "B 3"] | None = None,
+        noise: Float[Tensor, " B"] | None = None,
     ) -> Float[Tensor, "B 2"]:
         """Encode once, in float32, then let the sampler of the settings choose."""
         settings = self.config.sampler
@@ -150,13 +150,7 @@ class IbcLearner(Learner):
                 EnergyScorer(self.energy, features, settings.precision, num_threads=num_threads)
             )
             if settings.kind == "grid":
-                return grid.choose(
-                    energy,
-                    settings.grid,
-                    generator=generator,
-                    sides=sides,
-                    split=self.config.commitment.split,
-                )
+                return grid.choose(energy, settings.grid, generator=generator, noise=noise)
             if settings.kind == "dfo":
                 search = settings.dfo
                 start = self.experts.draw(

@@ -164,7 +164,7 @@ class Learner(nn.Module, ABC):
         state: Float[Tensor, "B 3"],
         *,
         generator: torch.Generator,
-        sides: Float[Tensor, "B 3"] | None = None,
+        noise: Float[Tensor, " B"] | None = None,
     ) -> Float[Tensor, "B 2"]:
         """Choose one action for each observation.
 
@@ -172,8 +172,8 @@ class Learner(nn.Module, ABC):
             bev: Bird's-eye views in 0..255 [-].
             state: Speed [m/s], previous acceleration [-] and previous steering [-].
             generator: Source of chance, on the device of the observations.
-            sides: Lasting noise that `samplers.commitment.draw_sides` gave, to choose between left, straight on and right by;
-                None draws everything anew. Without effect on methods that do not sample from a grid.
+            noise: Standard normal, from `samplers.commitment.next_noise`: the quantile of steering to take [-]; None draws it
+                anew. Without effect on methods that do not sample from a grid.
 
         Returns:
             Acceleration and steering in [-1, 1] [-].

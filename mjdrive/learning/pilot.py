@@ -14,7 +14,7 @@ from models.energy_scoring import resolved
 from models.errors import ModelsError
 from models.hardware import choose_device
 from models.interfaces import Learner
-from models.samplers.commitment import draw_sides
+from models.samplers.commitment import next_noise
 
 
 class Pilot:
@@ -47,12 +47,12 @@ class Pilot:
         self.config = learner.config
         self.learner = learner.to(self.device).eval()
         self._generator = torch.Generator(self.device)
-        self._sides: Tensor | None = None
+        self._noise: Tensor | None = None
 
     def reset(self, seed: int) -> None:
         """Start a new stream of random numbers."""
         self._generator.manual_seed(seed)
-        self._sides = None
+        self._noise = None
 
     @torch.inference_mode()
     def act(self, view: Observation) -> Action:
@@ -60,20 +60,18 @@ class Pilot:
         bev = torch.tensor(view.bev, device=self.device)[None]
         state = torch.tensor(view.state, device=self.device)[None]
         chosen = self.learner.act(
-            bev, state, generator=self._generator, sides=self._lasting_sides()
+            bev, state, generator=self._generator, noise=self._lasting_noise()
         )
         acceleration, steering = chosen[0].tolist()
         return Action(acceleration=acceleration, steering=steering)
 
-    def _lasting_sides(self) -> Tensor | None:
-        """Noise that decides between ways; each decision replaces it by chance. None if nothing lasts."""
+    def _lasting_noise(self) -> Tensor | None:
+        """Noise that goes on from decision to decision; None if nothing lasts."""
         hold = self.config.commitment.hold
         if hold == 0:
             return None
-        unit = torch.rand((), generator=self._generator, device=self.device)
-        if self._sides is None or unit < 1 / hold:
-            self._sides = draw_sides(1, generator=self._generator)
-        return self._sides
+        self._noise = next_noise(self._noise, 1, hold=hold, generator=self._generator)
+        return self._noise
 
 
 def load(

@@ -1,25 +1,22 @@
-"""How long a choice between ways lasts."""
+"""How long the chance that decides about steering lasts."""
 
 import dataclasses
 
-from models.config.checks import require, require_not_negative
+from models.config.checks import require_not_negative
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class CommitmentConfig:
-    """How long a sampled choice between left, straight on and right lasts; all else is drawn anew each time.
+    """How long sampled steering keeps to its place in the distribution; acceleration is drawn anew each time.
 
-    What is chosen has the same distribution at each moment whatever the settings are. But who tosses a coin ten times a second at a
-    fork drives into the middle of it.
+    What is chosen has the same distribution at each moment whatever the setting is. But who tosses a coin ten times a second at a
+    fork drives into the middle of it, or has passed it before enough coins fell alike.
 
     Attributes:
-        hold: Decisions for which the chance of the choice lasts on average; 0 for one, so that nothing lasts [-].
-        split: Modes whose densest action steers by more are to the left, or to the right [-].
+        hold: Decisions after which the correlation of the chance has fallen to 1/e; 0 for none, so that nothing lasts [-].
     """
 
     hold: int = 0
-    split: float = 0.15
 
     def __post_init__(self) -> None:
         require_not_negative(self, "hold")
-        require(self, "split", 0 < self.split < 1, "a number between 0 and 1")

@@ -1,86 +1,61 @@
-"""Choices between left, straight on and right that last for a while, without a change of what is chosen at each moment."""
+"""Steering that keeps to its place in the distribution for a while, without a change of what is chosen at each moment."""
+
+import math
 
 import torch
 from jaxtyping import Float, Int
 from torch import Tensor
 
-from models.samplers.draws import draw_categorical
-
-NUM_SIDES = 3
-"""Right, straight on and left."""
+from models.samplers.draws import draw_categorical, invert_cumulative
 
 
-def draw_sides(num_observations: int, *, generator: torch.Generator) -> Float[Tensor, "B 3"]:
-    """Gumbel noise, from which `draw_committed` chooses a side; as long as it lasts, so does the choice.
+def next_noise(
+    noise: Float[Tensor, " B"] | None, num_drivers: int, *, hold: int, generator: torch.Generator
+) -> Float[Tensor, " B"]:
+    """Go on with noise that lasts, a first-order autoregressive process; each value alone is standard normal.
 
     Args:
-        num_observations: How many choose.
+        noise: That of the last decision; None to begin.
+        num_drivers: How many decide at once, each with noise of its own.
+        hold: Decisions after which the correlation has fallen to 1/e; at least 1 [-].
         generator: Source of chance; the noise lies on its device.
 
     Returns:
-        Noise of right, straight on and left [nats].
+        The noise of the next decision [-].
+
+    Reference:
+        Uhlenbeck and Ornstein, On the theory of the Brownian motion, 1930.
     """
-    waiting = torch.empty(num_observations, NUM_SIDES, device=generator.device)
-    return -waiting.exponential_(generator=generator).log()
+    fresh = torch.randn(num_drivers, generator=generator, device=generator.device)
+    if noise is None:
+        return fresh
+    kept = math.exp(-1.0 / hold)
+    return kept * noise + math.sqrt(1.0 - kept**2) * fresh
 
 
 def draw_committed(
-    log_weights: Float[Tensor, "B N"],
-    sides: Float[Tensor, "B 3"],
-    *,
-    split: float,
-    generator: torch.Generator,
+    log_weights: Float[Tensor, "B N"], noise: Float[Tensor, " B"], *, generator: torch.Generator
 ) -> Int[Tensor, "B 1"]:
-    """Draw points of a square grid of actions: first a side, by noise that may last, then one of its points.
+    """Draw points of a square grid of actions: steering by its quantile, then an acceleration that goes with it.
 
-    With fresh noise each point is drawn by its weight (Gumbel-max, then a draw among what is left). All points of a mode are on
-    one side, so a distribution with one mode is drawn from as if nothing lasted.
+    With standard normal noise each point is drawn by its weight. Where the noise lasts, so does the place in the distribution of
+    steering: of two modes the same one is taken again, and a mode that splits is followed to the same side.
 
     Args:
         log_weights: Log weight of each point, acceleration outermost, up to a constant of each row [nats].
-        sides: What `draw_sides` gave, now or earlier.
-        split: A mode is on the side to which its densest point steers by more than that, else straight on [-].
-        generator: Source of the draw on a side.
+        noise: Standard normal; the share of the distribution that steers further to the right is the share of noise below it [-].
+        generator: Source of the draw of an acceleration.
 
     Returns:
         Indices into the second axis.
 
     Reference:
-        Gumbel, Statistical Theory of Extreme Values, 1954: the largest of log weights plus Gumbel noise has the weights' odds.
+        Sklar, Fonctions de repartition a n dimensions et leurs marges, 1959: noise of a Gaussian copula, any marginals.
     """
     points = round(log_weights.shape[1] ** 0.5)
-    steering = torch.linspace(-1.0, 1.0, points, device=log_weights.device)[
-        modes(log_weights) % points
-    ]
-    side = 1 + (steering > split).long() - (steering < -split).long()  # (B, N)
-    weights = torch.softmax(log_weights, dim=1)
-    mass = torch.zeros_like(sides).scatter_add_(1, side, weights)
-    chosen = (mass.log() + sides).argmax(dim=1, keepdim=True)
-    return draw_categorical(weights * (side == chosen), 1, generator=generator)
-
-
-def modes(log_weights: Float[Tensor, "B N"]) -> Int[Tensor, "B N"]:
-    """The top of the mode that each point of a square grid belongs to: where one ends who climbs to the highest of eight neighbours.
-
-    Args:
-        log_weights: Height of each point [nats].
-
-    Returns:
-        Index of the top of each point; a point no lower than its neighbours is its own.
-    """
-    points = round(log_weights.shape[1] ** 0.5)
-    height = log_weights.unflatten(1, (points, points))
-    padded = torch.nn.functional.pad(height, (1, 1, 1, 1), value=-torch.inf)
-    best, onward = height.clone(), torch.zeros_like(height, dtype=torch.long)
-    for row in (-1, 0, 1):
-        for column in (-1, 0, 1):
-            other = padded[:, 1 + row : 1 + row + points, 1 + column : 1 + column + points]
-            higher = other > best
-            best = torch.where(higher, other, best)
-            onward = torch.where(higher, row * points + column, onward)
-    target = torch.arange(points**2, device=height.device) + onward.flatten(1)
-    while True:
-        further = target.gather(1, target)
-        if torch.equal(further, target):
-            return target
-        target = further
+    weights = torch.softmax(log_weights, dim=1).unflatten(1, (points, points))
+    quantile = torch.special.ndtr(noise.double())[:, None]
+    steering = invert_cumulative(weights.sum(dim=1), quantile)  # (B, 1)
+    column = weights.gather(2, steering[:, None].expand(-1, points, 1)).squeeze(2)  # (B, points)
+    acceleration = draw_categorical(column, 1, generator=generator)
+    return acceleration * points + steering

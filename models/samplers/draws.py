@@ -24,7 +24,7 @@ def draw_categorical(
         device=probabilities.device,
         dtype=torch.float64,
     )
-    return _invert(probabilities, unit)
+    return invert_cumulative(probabilities, unit)
 
 
 def draw_ascending(
@@ -51,11 +51,21 @@ def draw_ascending(
     shape = (len(probabilities), num_draws + 1)
     unit = torch.rand(shape, generator=generator, device=probabilities.device)
     sums = unit.neg_().log1p_().neg_().cumsum(dim=1, dtype=torch.float64)
-    return _invert(probabilities, sums[:, :-1] / sums[:, -1:])
+    return invert_cumulative(probabilities, sums[:, :-1] / sums[:, -1:])
 
 
-def _invert(probabilities: Float[Tensor, "B N"], unit: Float[Tensor, "B S"]) -> Int[Tensor, "B S"]:
-    """The indices at which the cumulative sum passes the unit numbers."""
+def invert_cumulative(
+    probabilities: Float[Tensor, "B N"], unit: Float[Tensor, "B S"]
+) -> Int[Tensor, "B S"]:
+    """Find the indices at which the cumulative sum passes shares of all there is.
+
+    Args:
+        probabilities: Non-negative weights of the indices; they need not sum to one [-].
+        unit: Shares in [0, 1), in double precision [-].
+
+    Returns:
+        Indices into the second axis of the probabilities.
+    """
     cumulative = probabilities.cumsum(dim=1, dtype=torch.float64)
     # side="right" skips indices of probability zero; the clamp meets a draw at the very end.
     drawn = torch.searchsorted(cumulative, unit * cumulative[:, -1:], right=True)

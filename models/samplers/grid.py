@@ -29,8 +29,7 @@ def choose(
     config: GridConfig,
     *,
     generator: torch.Generator,
-    sides: Float[Tensor, "B 3"] | None = None,
-    split: float = 0.15,
+    noise: Float[Tensor, " B"] | None = None,
 ) -> Float[Tensor, "B 2"]:
     """Choose a grid point for each observation: the lowest, or one drawn from exp(-E / temperature).
 
@@ -38,8 +37,7 @@ def choose(
         energy: Scores candidates.
         config: Grid, choice and temperature.
         generator: Source of chance; the grid lies on its device.
-        sides: Lasting noise to choose a side by before one of its points is drawn; None draws among all points.
-        split: How much the modes of a side steer at least [-].
+        noise: Lasting noise that says which quantile of steering is taken; None draws among all points.
 
     Returns:
         Acceleration and steering [-].
@@ -49,8 +47,8 @@ def choose(
     if config.choice == "argmin":
         return actions[energies.argmin(dim=1)]
     log_weights = -energies / config.temperature
-    if sides is None:
+    if noise is None:
         drawn = draw_categorical(torch.softmax(log_weights, dim=1), 1, generator=generator)
     else:
-        drawn = draw_committed(log_weights, sides, split=split, generator=generator)
+        drawn = draw_committed(log_weights, noise, generator=generator)
     return actions[drawn.squeeze(1)]

@@ -1,6 +1,6 @@
 import dataclasses
-import itertools
 import json
+import math
 from pathlib import Path
 
 import numpy as np
@@ -52,7 +52,7 @@ def held(policy: pilot.Pilot, hold: int) -> None:
     policy.config = dataclasses.replace(policy.config, commitment=commitment)
 
 
-def test_choices_last_as_long_as_the_settings_say_and_end_with_the_drive(
+def test_chance_lasts_as_long_as_the_settings_say_and_end_with_the_drive(
     run: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     policy = pilot.load(run)
@@ -60,7 +60,7 @@ def test_choices_last_as_long_as_the_settings_say_and_end_with_the_drive(
     monkeypatch.setattr(
         policy.learner,
         "act",
-        lambda *_, generator, sides: given.append(sides) or torch.zeros(1, 2),
+        lambda *_, generator, noise: given.append(noise) or torch.zeros(1, 2),
     )
     held(policy, 0)
     policy.act(SEEN)
@@ -68,14 +68,15 @@ def test_choices_last_as_long_as_the_settings_say_and_end_with_the_drive(
     held(policy, 20)
     policy.reset(0)
     given.clear()
-    for _ in range(600):
+    for _ in range(4000):
         policy.act(SEEN)
-    changes = sum(a is not b for a, b in itertools.pairwise(given))
-    assert 15 <= changes <= 50  # 30 +- 3 * sqrt(30)
-    last = given[-1]
+    noise = torch.cat(given)
+    alike = torch.corrcoef(torch.stack([noise[:-20], noise[20:]]))[0, 1].item()
+    assert alike == pytest.approx(math.exp(-1), abs=0.15)
     policy.reset(0)
     policy.act(SEEN)
-    assert given[-1] is not last
+    assert given[-1] == given[0]
+    assert given[-1] != given[-2]
 
 
 def test_preset_changes_how_it_acts_and_not_what_it_learnt(run: Path) -> None:
@@ -143,7 +144,7 @@ def test_what_it_sees_goes_to_its_device(run: Path, monkeypatch: pytest.MonkeyPa
     seen = []
 
     def act(
-        bev: torch.Tensor, state: torch.Tensor, *, generator: object, sides: object
+        bev: torch.Tensor, state: torch.Tensor, *, generator: object, noise: object
     ) -> torch.Tensor:
         seen.extend([bev.device, state.device])
         return torch.zeros(1, 2)

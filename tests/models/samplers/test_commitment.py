@@ -1,9 +1,12 @@
+import itertools
+import math
+
 import pytest
 import torch
 
 from models.config import GridConfig
 from models.samplers import grid
-from models.samplers.commitment import NUM_SIDES, draw_committed, draw_sides, modes
+from models.samplers.commitment import draw_committed, next_noise
 
 POINTS = 33
 
@@ -18,70 +21,84 @@ def log_weights(*peaks: tuple[float, float, float]) -> torch.Tensor:
     return torch.log(density + 1e-12)[None]
 
 
-FORK = log_weights((0.65, 0.3, 0.5), (0.35, 0.3, -0.5))
+FORK = log_weights((0.65, -0.3, 0.5), (0.35, 0.3, -0.5))
+"""Who turns to the left brakes."""
 
 
-def drawn_steering(rows, sides, generator) -> torch.Tensor:
-    indices = draw_committed(rows, sides, split=0.15, generator=generator)
-    return grid.action_grid(POINTS)[indices.squeeze(1), 1]
+def drawn(rows, noise, generator) -> torch.Tensor:
+    indices = draw_committed(rows, noise, generator=generator)
+    return grid.action_grid(POINTS)[indices.squeeze(1)]
 
 
 def test_what_is_drawn_at_one_moment_is_as_without_commitment(generator):
-    rows = FORK.expand(4000, -1)
-    steering = drawn_steering(rows, draw_sides(4000, generator=generator), generator)
-    assert (steering > 0).float().mean().item() == pytest.approx(0.65, abs=0.03)
-    shares = torch.softmax(FORK, dim=1)[0]
-    spread = (shares * (grid.action_grid(POINTS)[:, 1] - (2 * 0.65 - 1) * 0.5).square()).sum()
-    assert steering.var().item() == pytest.approx(spread.item(), rel=0.05)
+    num_draws = 20_000
+    actions = drawn(
+        FORK.expand(num_draws, -1),
+        next_noise(None, num_draws, hold=9, generator=generator),
+        generator,
+    )
+    shares = torch.softmax(FORK, dim=1)
+    assert (actions[:, 1] > 0).float().mean().item() == pytest.approx(0.65, abs=0.02)
+    points = grid.action_grid(POINTS)
+    mean = shares @ points
+    expected = (points - mean).T @ ((points - mean) * shares.T)
+    torch.testing.assert_close(actions.mean(dim=0), mean[0], atol=0.02, rtol=0)
+    torch.testing.assert_close(actions.T.cov(), expected, atol=0.01, rtol=0)
 
 
-def test_a_side_is_kept_as_long_as_its_noise_lasts_and_all_else_is_drawn_anew(generator):
-    for _ in range(5):
-        sides = draw_sides(1, generator=generator)
-        steering = torch.cat([drawn_steering(FORK, sides, generator) for _ in range(50)])
-        assert len(set((steering > 0).tolist())) == 1
-        assert len(set(steering.tolist())) > 3
+@pytest.mark.parametrize("noise", [-2.0, -0.5, 0.0, 2.0])
+def test_steering_keeps_its_place_and_acceleration_is_drawn_anew(noise, generator):
+    actions = drawn(FORK.expand(50, -1), torch.full((50,), noise), generator)
+    assert len(set(actions[:, 1].tolist())) == 1
+    assert len(set(actions[:, 0].tolist())) > 3
+    is_left = noise > -0.385  # 0.35 of all noise is smaller
+    assert (actions[:, 1] > 0).all() == is_left
+    assert (actions[:, 0].mean() < 0) == is_left, "acceleration goes with steering"
+
+
+def test_a_mode_that_splits_is_followed_to_the_same_side(generator):
+    """Half of all turn left, little by little: whoever begins to, must not begin anew at each moment."""
+    for noise, turns_left in ((1.0, True), (-1.0, False)):
+        steering = [
+            drawn(
+                log_weights((0.5, 0.0, 0.0), (0.5, 0.0, 0.05 * step)),
+                torch.tensor([noise]),
+                generator,
+            )[0, 1].item()
+            for step in range(11)
+        ]
+        assert (steering[-1] > 0.3) == turns_left
+        if turns_left:
+            assert all(b >= a - 1e-6 for a, b in itertools.pairwise(steering))
 
 
 def test_a_side_is_left_when_it_is_no_way_any_more(generator):
-    sides = torch.tensor([[-5.0, 0.0, 5.0]])  # fond of the left
-    assert (drawn_steering(FORK, sides, generator) > 0).all()
-    only_right = log_weights((1.0, 0.3, -0.5))
-    assert (drawn_steering(only_right, sides, generator) < 0).all()
+    noise = torch.tensor([2.0])  # far to the left
+    assert drawn(FORK, noise, generator)[0, 1] > 0
+    assert drawn(log_weights((1.0, 0.3, -0.5)), noise, generator)[0, 1] < 0
 
 
-def test_one_mode_is_drawn_from_as_if_nothing_lasted(generator):
-    """Around straight on, where actions lie on both sides of the split."""
-    rows = log_weights((1.0, 0.0, 0.1)).expand(4000, -1)
-    sides = draw_sides(1, generator=generator).expand(4000, -1)
-    steering = drawn_steering(rows, sides, generator)
-    assert steering.mean().item() == pytest.approx(0.1, abs=0.01)
-    assert steering.std().item() == pytest.approx(0.1, rel=0.1)
-
-
-def test_every_point_belongs_to_the_top_that_one_climbs_to_from_it():
-    tops, actions = modes(FORK)[0], grid.action_grid(POINTS)
-    assert torch.equal(tops[tops], tops), "a top is its own"
-    for centre in (0.5, -0.5):
-        near = (actions - torch.tensor([0.3, centre])).norm(dim=1) < 0.4
-        (top,) = tops[near].unique()
-        assert actions[top].tolist() == pytest.approx([0.3, centre], abs=1 / POINTS)
-
-
-def test_the_grid_sampler_keeps_sides(generator):
+def test_the_grid_sampler_keeps_to_the_noise(generator):
     def energy(actions):
         del actions
         return -FORK
 
     config = GridConfig(points=POINTS)
     for side in (-1.0, 1.0):
-        sides = torch.tensor([[-9.0 * side, -20.0, 9.0 * side]])
-        chosen = grid.choose(energy, config, generator=generator, sides=sides)
+        chosen = grid.choose(energy, config, generator=generator, noise=torch.tensor([2.0 * side]))
         assert (chosen[:, 1] * side > 0).all()
 
 
-def test_noise_is_standard_gumbel(generator):
-    noise = draw_sides(20_000, generator=generator)
-    assert noise.shape == (20_000, NUM_SIDES)
-    assert noise.mean().item() == pytest.approx(0.5772, abs=0.02)
-    assert noise.var().item() == pytest.approx(torch.pi**2 / 6, rel=0.03)
+def test_noise_is_standard_normal_at_each_moment_and_fades_as_it_should(generator):
+    first = noise = next_noise(None, 20_000, hold=5, generator=generator)
+    for _ in range(5):
+        noise = next_noise(noise, 20_000, hold=5, generator=generator)
+    assert noise.mean().item() == pytest.approx(0.0, abs=0.03)
+    assert noise.var().item() == pytest.approx(1.0, rel=0.04)
+    alike = torch.corrcoef(torch.stack([first, noise]))[0, 1].item()
+    assert alike == pytest.approx(math.exp(-1), abs=0.03)
+
+
+@pytest.mark.parametrize("noise", [-40.0, 40.0])
+def test_noise_without_bounds_stays_on_the_grid(noise, generator):
+    assert drawn(FORK, torch.tensor([noise]), generator).abs().max() <= 1
