@@ -40,7 +40,7 @@ class LearnerConfig:
         density: Kernel density estimate and what it weighs.
         evenness: How evenly training draws what was seen.
         sampler: How IBC and DA-IBC choose actions.
-        commitment: How long choices between ways last, where actions are sampled from a grid.
+        commitment: How long the chance of steering lasts, where actions are sampled from a grid.
         optimiser: How the loss is descended on.
     """
 

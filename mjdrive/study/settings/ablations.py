@@ -70,7 +70,7 @@ ACTING_ABLATIONS = (
         "brief",
         "da-ibc",
         "committed for 1 s",
-        "choices between ways last for a second",
+        "the chance of steering lasts for a second",
         "commitment.hold=10",
     ),
     _arm(
