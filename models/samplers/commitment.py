@@ -50,7 +50,7 @@ def draw_committed(
         Indices into the second axis.
 
     Reference:
-        Sklar, Fonctions de repartition a n dimensions et leurs marges, 1959: noise of a Gaussian copula, any marginals.
+        Nelsen, An Introduction to Copulas, 2006: where ranks are kept from one moment to the next, marginals are free.
     """
     points = round(log_weights.shape[1] ** 0.5)
     weights = torch.softmax(log_weights, dim=1).unflatten(1, (points, points))
