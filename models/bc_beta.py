@@ -19,6 +19,7 @@ from models.beta_density import (
 from models.config import LearnerConfig
 from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_action, policy_head
 from models.interfaces import ACTION_SIZE, Batch, Chance, Learner, weighted_mean
+from models.samplers.commitment import Commitment
 from models.threads import one_thread
 
 
@@ -71,10 +72,10 @@ class BcBetaLearner(Learner):
         state: Float[Tensor, "B 3"],
         *,
         generator: torch.Generator,
-        noise: Float[Tensor, " B"] | None = None,
+        commitment: Commitment | None = None,
     ) -> Float[Tensor, "B 2"]:
         """Mode, mean or a sample of the distribution, as the settings say."""
-        del noise
+        del commitment
         with one_thread():
             distribution = self.distribution(bev, state)
         alpha, beta = distribution.concentration1, distribution.concentration0

@@ -8,7 +8,7 @@ from torch.nn import functional as F  # noqa: N812
 from models.config import LearnerConfig
 from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_action, policy_head
 from models.interfaces import ACTION_BOUND, Batch, Chance, Learner, weighted_mean
-from models.samplers.commitment import draw_committed
+from models.samplers.commitment import Commitment
 from models.samplers.draws import draw_categorical
 from models.samplers.grid import action_grid
 from models.threads import one_thread
@@ -63,7 +63,7 @@ class BcGridLearner(Learner):
         state: Float[Tensor, "B 3"],
         *,
         generator: torch.Generator,
-        noise: Float[Tensor, " B"] | None = None,
+        commitment: Commitment | None = None,
     ) -> Float[Tensor, "B 2"]:
         """The densest point, or one drawn from the grid, as the settings say."""
         settings = self.config.categorical
@@ -76,10 +76,10 @@ class BcGridLearner(Learner):
             return actions[log_densities.argmax(dim=1)]
         # The density is tempered, so that the coldest sample is the densest point.
         log_weights = log_densities / settings.temperature + log_areas
-        if noise is None:
+        if commitment is None:
             drawn = draw_categorical(torch.softmax(log_weights, dim=1), 1, generator=generator)
         else:
-            drawn = draw_committed(log_weights, noise, generator=generator)
+            drawn = commitment.draw(log_weights)
         return actions[drawn.squeeze(1)]
 
     @torch.no_grad()

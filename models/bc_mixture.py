@@ -19,6 +19,7 @@ from models.beta_density import (
 from models.config import LearnerConfig
 from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_action, policy_head
 from models.interfaces import ACTION_SIZE, Batch, Chance, Learner, weighted_mean
+from models.samplers.commitment import Commitment
 from models.samplers.draws import draw_categorical, pick
 from models.threads import one_thread
 
@@ -81,10 +82,10 @@ class BcMixtureLearner(Learner):
         state: Float[Tensor, "B 3"],
         *,
         generator: torch.Generator,
-        noise: Float[Tensor, " B"] | None = None,
+        commitment: Commitment | None = None,
     ) -> Float[Tensor, "B 2"]:
         """Mode, mean or a sample of the mixture, as the settings say."""
-        del noise
+        del commitment
         with one_thread():
             log_weights, components = self.mixture(bev, state)
         if self.config.beta.inference == "mode":

@@ -15,6 +15,7 @@ from models.config import LearnerConfig
 from models.denoiser import Denoiser
 from models.encoder import Encoder, draw_dropout, drop_previous_action
 from models.interfaces import ACTION_BOUND, ACTION_SIZE, Batch, Chance, Learner, weighted_mean
+from models.samplers.commitment import Commitment
 from models.threads import for_each, one_thread
 
 # Hidden layers of this many actions, with their derivatives, are 3 MB.
@@ -97,10 +98,10 @@ class GenerativeLearner(Learner):
         state: Float[Tensor, "B 3"],
         *,
         generator: torch.Generator,
-        noise: Float[Tensor, " B"] | None = None,
+        commitment: Commitment | None = None,
     ) -> Float[Tensor, "B 2"]:
         """Encode once, then turn one noise an observation into an action."""
-        del noise
+        del commitment
         with one_thread():
             observed = self.denoiser.observe(self.encoder(bev, state))
             shape = (len(observed), 1, ACTION_SIZE)

@@ -16,6 +16,7 @@ from models.expert_actions import ExpertActions
 from models.interfaces import Batch, Chance, Learner
 from models.negatives import uniform_actions
 from models.samplers import dfo, grid, langevin
+from models.samplers.commitment import Commitment
 from models.samplers.dfo import EnergyFunction
 from models.samplers.langevin import SlopeFunction
 from models.threads import one_thread
@@ -140,7 +141,7 @@ class IbcLearner(Learner):
         state: Float[Tensor, "B 3"],
         *,
         generator: torch.Generator,
-        noise: Float[Tensor, " B"] | None = None,
+        commitment: Commitment | None = None,
     ) -> Float[Tensor, "B 2"]:
         """Encode once, in float32, then let the sampler of the settings choose."""
         settings = self.config.sampler
@@ -150,7 +151,9 @@ class IbcLearner(Learner):
                 EnergyScorer(self.energy, features, settings.precision, num_threads=num_threads)
             )
             if settings.kind == "grid":
-                return grid.choose(energy, settings.grid, generator=generator, noise=noise)
+                return grid.choose(
+                    energy, settings.grid, generator=generator, commitment=commitment
+                )
             if settings.kind == "dfo":
                 search = settings.dfo
                 start = self.experts.draw(

@@ -11,6 +11,7 @@ from jaxtyping import Float, Int, UInt8
 from torch import Tensor, nn
 
 from models.config import LearnerConfig
+from models.samplers.commitment import Commitment
 
 ACTION_SIZE = 2
 ACTION_BOUND = 1.0
@@ -164,7 +165,7 @@ class Learner(nn.Module, ABC):
         state: Float[Tensor, "B 3"],
         *,
         generator: torch.Generator,
-        noise: Float[Tensor, " B"] | None = None,
+        commitment: Commitment | None = None,
     ) -> Float[Tensor, "B 2"]:
         """Choose one action for each observation.
 
@@ -172,8 +173,8 @@ class Learner(nn.Module, ABC):
             bev: Bird's-eye views in 0..255 [-].
             state: Speed [m/s], previous acceleration [-] and previous steering [-].
             generator: Source of chance, on the device of the observations.
-            noise: Standard normal, from `samplers.commitment.next_noise`: the quantile of steering to take [-]; None draws it
-                anew. Without effect on methods that do not sample from a grid.
+            commitment: What lasts from decision to decision, of as many drivers as there are observations; it goes on with each call.
+                None draws everything anew. Without effect on methods that do not sample from a grid.
 
         Returns:
             Acceleration and steering in [-1, 1] [-].

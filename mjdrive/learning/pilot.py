@@ -4,7 +4,6 @@ import dataclasses
 from pathlib import Path
 
 import torch
-from torch import Tensor
 
 from mjdrive.datatypes import Action, Observation
 from mjdrive.errors import RunError
@@ -14,7 +13,7 @@ from models.energy_scoring import resolved
 from models.errors import ModelsError
 from models.hardware import choose_device
 from models.interfaces import Learner
-from models.samplers.commitment import next_noise
+from models.samplers.commitment import Commitment
 
 
 class Pilot:
@@ -47,31 +46,29 @@ class Pilot:
         self.config = learner.config
         self.learner = learner.to(self.device).eval()
         self._generator = torch.Generator(self.device)
-        self._noise: Tensor | None = None
+        self._commitment: Commitment | None = None
 
     def reset(self, seed: int) -> None:
         """Start a new stream of random numbers."""
         self._generator.manual_seed(seed)
-        self._noise = None
+        self._commitment = None
 
     @torch.inference_mode()
     def act(self, view: Observation) -> Action:
         """Choose the action for the next control interval."""
         bev = torch.tensor(view.bev, device=self.device)[None]
         state = torch.tensor(view.state, device=self.device)[None]
-        chosen = self.learner.act(
-            bev, state, generator=self._generator, noise=self._lasting_noise()
-        )
+        chosen = self.learner.act(bev, state, generator=self._generator, commitment=self._lasting())
         acceleration, steering = chosen[0].tolist()
         return Action(acceleration=acceleration, steering=steering)
 
-    def _lasting_noise(self) -> Tensor | None:
-        """Noise that goes on from decision to decision; None if nothing lasts."""
-        hold = self.config.commitment.hold
-        if hold == 0:
+    def _lasting(self) -> Commitment | None:
+        """What lasts from decision to decision of this drive; None if nothing does."""
+        if self.config.commitment.hold == 0:
             return None
-        self._noise = next_noise(self._noise, 1, hold=hold, generator=self._generator)
-        return self._noise
+        if self._commitment is None:
+            self._commitment = Commitment(self.config.commitment, 1, generator=self._generator)
+        return self._commitment
 
 
 def load(

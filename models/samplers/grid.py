@@ -5,7 +5,7 @@ from jaxtyping import Float
 from torch import Tensor
 
 from models.config import GridConfig
-from models.samplers.commitment import draw_committed
+from models.samplers.commitment import Commitment
 from models.samplers.dfo import EnergyFunction
 from models.samplers.draws import draw_categorical
 
@@ -29,7 +29,7 @@ def choose(
     config: GridConfig,
     *,
     generator: torch.Generator,
-    noise: Float[Tensor, " B"] | None = None,
+    commitment: Commitment | None = None,
 ) -> Float[Tensor, "B 2"]:
     """Choose a grid point for each observation: the lowest, or one drawn from exp(-E / temperature).
 
@@ -37,7 +37,7 @@ def choose(
         energy: Scores candidates.
         config: Grid, choice and temperature.
         generator: Source of chance; the grid lies on its device.
-        noise: Lasting noise that says which quantile of steering is taken; None draws among all points.
+        commitment: What lasts from decision to decision; None draws among all points.
 
     Returns:
         Acceleration and steering [-].
@@ -47,8 +47,8 @@ def choose(
     if config.choice == "argmin":
         return actions[energies.argmin(dim=1)]
     log_weights = -energies / config.temperature
-    if noise is None:
+    if commitment is None:
         drawn = draw_categorical(torch.softmax(log_weights, dim=1), 1, generator=generator)
     else:
-        drawn = draw_committed(log_weights, noise, generator=generator)
+        drawn = commitment.draw(log_weights)
     return actions[drawn.squeeze(1)]
