@@ -4,11 +4,14 @@ import math
 import pytest
 import torch
 
-from models.config import GridConfig
+from models.config import CommitmentConfig, GridConfig
+from models.errors import ModelsError
 from models.samplers import grid
-from models.samplers.commitment import draw_committed, next_noise
+from models.samplers.commitment import Commitment, modes, sides
 
 POINTS = 33
+LASTING = CommitmentConfig(hold=10**9, release=1.0)
+"""Noise that never fades, and nothing that is gone on with for its own sake."""
 
 
 def log_weights(*peaks: tuple[float, float, float]) -> torch.Tensor:
@@ -25,18 +28,14 @@ FORK = log_weights((0.65, -0.3, 0.5), (0.35, 0.3, -0.5))
 """Who turns to the left brakes."""
 
 
-def drawn(rows, noise, generator) -> torch.Tensor:
-    indices = draw_committed(rows, noise, generator=generator)
-    return grid.action_grid(POINTS)[indices.squeeze(1)]
+def drawn(rows: torch.Tensor, commitment: Commitment) -> torch.Tensor:
+    return grid.action_grid(POINTS)[commitment.draw(rows).squeeze(1)]
 
 
-def test_what_is_drawn_at_one_moment_is_as_without_commitment(generator):
-    num_draws = 20_000
-    actions = drawn(
-        FORK.expand(num_draws, -1),
-        next_noise(None, num_draws, hold=9, generator=generator),
-        generator,
-    )
+def test_the_first_draw_of_many_drivers_is_as_without_commitment(generator):
+    num_drivers = 20_000
+    commitment = Commitment(CommitmentConfig(hold=9), num_drivers, generator=generator)
+    actions = drawn(FORK.expand(num_drivers, -1), commitment)
     shares = torch.softmax(FORK, dim=1)
     assert (actions[:, 1] > 0).float().mean().item() == pytest.approx(0.65, abs=0.02)
     points = grid.action_grid(POINTS)
@@ -46,59 +45,94 @@ def test_what_is_drawn_at_one_moment_is_as_without_commitment(generator):
     torch.testing.assert_close(actions.T.cov(), expected, atol=0.01, rtol=0)
 
 
-@pytest.mark.parametrize("noise", [-2.0, -0.5, 0.0, 2.0])
-def test_steering_keeps_its_place_and_acceleration_is_drawn_anew(noise, generator):
-    actions = drawn(FORK.expand(50, -1), torch.full((50,), noise), generator)
-    assert len(set(actions[:, 1].tolist())) == 1
-    assert len(set(actions[:, 0].tolist())) > 3
-    is_left = noise > -0.385  # 0.35 of all noise is smaller
-    assert (actions[:, 1] > 0).all() == is_left
-    assert (actions[:, 0].mean() < 0) == is_left, "acceleration goes with steering"
+def test_steering_keeps_its_place_and_acceleration_is_drawn_anew(generator):
+    for _ in range(6):
+        commitment = Commitment(LASTING, 1, generator=generator)
+        actions = torch.cat([drawn(FORK, commitment) for _ in range(50)])
+        assert len(set(actions[:, 1].tolist())) == 1
+        assert len(set(actions[:, 0].tolist())) > 3
+        is_left = bool(actions[0, 1] > 0)
+        assert (actions[:, 0].mean() < 0) == is_left, "acceleration goes with steering"
 
 
 def test_a_mode_that_splits_is_followed_to_the_same_side(generator):
     """Half of all turn left, little by little: whoever begins to, must not begin anew at each moment."""
-    for noise, turns_left in ((1.0, True), (-1.0, False)):
-        steering = [
+    num_drivers = 400
+    commitment = Commitment(LASTING, num_drivers, generator=generator)
+    steering = torch.stack(
+        [
             drawn(
-                log_weights((0.5, 0.0, 0.0), (0.5, 0.0, 0.05 * step)),
-                torch.tensor([noise]),
-                generator,
-            )[0, 1].item()
+                log_weights((0.5, 0.0, 0.0), (0.5, 0.0, 0.05 * step)).expand(num_drivers, -1),
+                commitment,
+            )[:, 1]
             for step in range(11)
         ]
-        assert (steering[-1] > 0.3) == turns_left
-        if turns_left:
-            assert all(b >= a - 1e-6 for a, b in itertools.pairwise(steering))
+    )
+    ends_left = steering[-1] > 0.25
+    assert ends_left.float().mean().item() == pytest.approx(0.5, abs=0.08)
+    for before, after in itertools.pairwise(steering[:, ends_left]):
+        assert (after >= before - 1e-6).all()
 
 
-def test_a_side_is_left_when_it_is_no_way_any_more(generator):
-    noise = torch.tensor([2.0])  # far to the left
-    assert drawn(FORK, noise, generator)[0, 1] > 0
-    assert drawn(log_weights((1.0, 0.3, -0.5)), noise, generator)[0, 1] < 0
+def test_a_turn_that_was_begun_is_gone_on_with_while_it_has_its_share(generator):
+    config = CommitmentConfig(hold=1, release=0.2)
+    for main in (1.0, -1.0):
+        commitment = Commitment(config, 1, generator=generator)
+        only = log_weights((1.0, 0.0, 0.5 * main))
+        less = log_weights((0.3, 0.0, 0.5 * main), (0.7, 0.0, -0.5 * main))
+        gone = log_weights((0.1, 0.0, 0.5 * main), (0.9, 0.0, -0.5 * main))
+        assert main * drawn(only, commitment)[0, 1] > 0
+        assert all(main * drawn(less, commitment)[0, 1] > 0 for _ in range(50))
+        assert any(main * drawn(gone, commitment)[0, 1] < 0 for _ in range(50))
 
 
-def test_the_grid_sampler_keeps_to_the_noise(generator):
+def test_nobody_has_to_go_straight_on(generator):
+    commitment = Commitment(CommitmentConfig(hold=1), 1, generator=generator)
+    rows = log_weights((0.9, 0.0, 0.0), (0.1, 0.0, 0.5))
+    assert any(drawn(rows, commitment)[0, 1] > 0.3 for _ in range(200))
+
+
+def test_one_mode_across_the_split_is_drawn_from_as_a_whole(generator):
+    """Around straight on, where actions lie on both sides of the split."""
+    commitment = Commitment(CommitmentConfig(hold=5), 4000, generator=generator)
+    steering = drawn(log_weights((1.0, 0.0, 0.1)).expand(4000, -1), commitment)[:, 1]
+    assert steering.mean().item() == pytest.approx(0.1, abs=0.01)
+    assert steering.std().item() == pytest.approx(0.1, rel=0.1)
+
+
+def test_every_point_belongs_to_the_top_that_one_climbs_to_from_it():
+    tops, actions = modes(FORK)[0], grid.action_grid(POINTS)
+    assert torch.equal(tops[tops], tops), "a top is its own"
+    for centre in ((-0.3, 0.5), (0.3, -0.5)):
+        near = (actions - torch.tensor(centre)).norm(dim=1) < 0.4
+        (top,) = tops[near].unique()
+        assert actions[top].tolist() == pytest.approx(centre, abs=1 / POINTS)
+        assert set(sides(FORK, split=0.15)[0][near].tolist()) == {2 if centre[1] > 0 else 0}
+
+
+def test_the_grid_sampler_keeps_to_what_lasts(generator):
     def energy(actions):
         del actions
         return -FORK
 
-    config = GridConfig(points=POINTS)
-    for side in (-1.0, 1.0):
-        chosen = grid.choose(energy, config, generator=generator, noise=torch.tensor([2.0 * side]))
-        assert (chosen[:, 1] * side > 0).all()
+    commitment = Commitment(LASTING, 1, generator=generator)
+    chosen = [
+        grid.choose(energy, GridConfig(points=POINTS), generator=generator, commitment=commitment)
+        for _ in range(30)
+    ]
+    assert len({action[0, 1].item() for action in chosen}) == 1
 
 
-def test_noise_is_standard_normal_at_each_moment_and_fades_as_it_should(generator):
-    first = noise = next_noise(None, 20_000, hold=5, generator=generator)
-    for _ in range(5):
-        noise = next_noise(noise, 20_000, hold=5, generator=generator)
-    assert noise.mean().item() == pytest.approx(0.0, abs=0.03)
-    assert noise.var().item() == pytest.approx(1.0, rel=0.04)
-    alike = torch.corrcoef(torch.stack([first, noise]))[0, 1].item()
-    assert alike == pytest.approx(math.exp(-1), abs=0.03)
+def test_the_place_fades_as_the_settings_say(generator):
+    """Ranks of steering within one mode are ranks of the noise."""
+    commitment = Commitment(CommitmentConfig(hold=5), 5000, generator=generator)
+    rows = log_weights((1.0, 0.0, 0.0)).expand(5000, -1)
+    steering = torch.stack([drawn(rows, commitment)[:, 1] for _ in range(6)])
+    alike = torch.corrcoef(steering)[0, 5].item()
+    assert alike == pytest.approx(math.exp(-1), abs=0.06)
 
 
-@pytest.mark.parametrize("noise", [-40.0, 40.0])
-def test_noise_without_bounds_stays_on_the_grid(noise, generator):
-    assert drawn(FORK, torch.tensor([noise]), generator).abs().max() <= 1
+@pytest.mark.parametrize("values", [{"hold": -1}, {"split": 0.0}, {"split": 1.0}, {"release": 0.0}])
+def test_settings_without_meaning_are_refused(values):
+    with pytest.raises(ModelsError):
+        CommitmentConfig(**values)
