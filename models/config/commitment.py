@@ -9,8 +9,8 @@ from models.config.checks import require, require_not_negative
 class CommitmentConfig:
     """How long sampled steering keeps to its place in the distribution; acceleration is drawn anew each time.
 
-    What is chosen has the same distribution at each moment whatever `hold` is. But who tosses a coin ten times a second at a
-    fork drives into the middle of it, or has passed it before enough coins fell alike.
+    What is chosen has the same distribution at each moment whatever `hold` is, but for turns that are gone on with. Who tosses a
+    coin ten times a second at a fork drives into the middle of it, or has passed it before enough coins fell alike.
 
     Attributes:
         hold: Decisions after which the correlation of the chance has fallen to 1/e; 0 for none, so that nothing lasts [-].
