@@ -35,7 +35,8 @@ check: install  ## Lint, types, import contracts and tests: exactly what CI runs
 	$(BIN)/typos
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	$(BIN)/pytest --numprocesses auto --dist loadgroup $(if $(NOTEBOOKS),--nbmake notebooks) tests
+	# One thread each: there are as many processes as cores, and threads that share a core wait for each other.
+	OMP_NUM_THREADS=1 $(BIN)/pytest --numprocesses auto --dist loadgroup $(if $(NOTEBOOKS),--nbmake notebooks) tests
 
 test: check  ## The same
 

@@ -144,6 +144,11 @@ class _Run:
         self.num_training = len(demonstrations) - math.floor(share * len(demonstrations))
         if self.num_training == 0:
             raise TrainingError("There are no demonstrations to train on. Collect some first.")
+        if self.num_training < self.settings.epochs_per_pass:
+            raise TrainingError(
+                f"{self.num_training} demonstrations cannot be cut into {self.settings.epochs_per_pass} epochs. Collect "
+                f"more, or lower optimiser.epochs_per_pass."
+            )
         self.actions = demonstrations.actions.to(device)
         actions = self.actions[: self.num_training]
         density = action_density(actions, learner.config.density)
@@ -152,14 +157,15 @@ class _Run:
         learner.prepare(actions, density)
         learner.to(device).train()
         self.state = TrainingState(learner, self.settings)
-        self.steps_per_epoch = math.ceil(self.num_training / self.settings.batch_size)
+        self.steps_per_epoch = self.settings.steps_per_epoch(self.num_training)
 
     def train_epoch(self, epoch: int, on_step: Callable[[StepReport], None] | None) -> EpochReport:
-        """Descend on every minibatch of one pass."""
+        """Descend on every minibatch of one epoch."""
         started = time.perf_counter()
         num_steps = self.settings.epochs * self.steps_per_epoch
         losses, norms, rate = [], [], 0.0
-        minibatches = one_ahead(self._minibatches(self._order(epoch), epoch, is_training=True))
+        order = self._order(epoch)
+        minibatches = one_ahead(self._minibatches(order, epoch, is_training=True))
         for step, minibatch in enumerate(minibatches, start=epoch * self.steps_per_epoch):
             rate = learning_rate(step, num_steps, self.settings)
             loss = self._differentiate(minibatch)
@@ -180,12 +186,17 @@ class _Run:
             learning_rate=rate,
             gradient_norm=sum(norms) / len(norms),
             duration_s=duration_s,
-            samples_per_s=self.num_training / duration_s,
+            samples_per_s=len(order) / duration_s,
         )
 
     def _order(self, epoch: int) -> Tensor:
-        """Indices of the pairs of one epoch: each once, or drawn by weight with replacement."""
-        generator = torch.Generator().manual_seed(epoch_seed(self.seed, epoch, 1))
+        """Indices of the pairs of one epoch: its part of those of a pass."""
+        done, part = divmod(epoch, self.settings.epochs_per_pass)
+        return self._pass_order(done).tensor_split(self.settings.epochs_per_pass)[part]
+
+    def _pass_order(self, done: int) -> Tensor:
+        """Indices of the pairs of the pass after so many: each once, or drawn by weight with replacement."""
+        generator = torch.Generator().manual_seed(epoch_seed(self.seed, done, 1))
         density, evenness = self.learner.config.density, self.learner.config.evenness
         if density.weighting != "sampler" and evenness.speed_exponent == 0:
             return torch.randperm(self.num_training, generator=generator)

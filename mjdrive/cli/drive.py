@@ -107,10 +107,8 @@ def drive(
     """
     import datetime
 
-    from mjdrive.cli.console import closing_table, progress_bars
     from mjdrive.cli.driver import find_driver
     from mjdrive.evaluation import report
-    from mjdrive.simulation.simulation import Simulation
     from mjdrive.town import library
     from mjdrive.vehicle import cars
 
@@ -124,10 +122,7 @@ def drive(
     driver = driver.solved_by(solver, fallback_solver)
     folder = out or report.new_folder(DRIVES, datetime.datetime.now())
     if is_filmed:
-        from mjdrive.cli import filming
-
         _require_one(num_episodes)
-        filming.require_cameras()
     if num_episodes is not None:
         from mjdrive.cli.drives import drive_episodes
 
@@ -143,49 +138,9 @@ def drive(
         )
         return
     _require_alone(jobs, backend, address)
-    report.require_new(folder)
-    late_solves: list[int] = []
-    with progress_bars() as bars:
-        task = bars.add_task(f"{driver.name} in {town.name}", total=num_steps)
-        episode = driver.drive(
-            Simulation(town, car=car),
-            num_steps=num_steps,
-            seed=seed,
-            on_step=lambda done: bars.update(task, completed=done),
-            on_late_solves=late_solves.append,
-        )
-    summary = report.write_drive(episode, town, folder)
-    video: dict[str, object] = {}
-    if is_filmed:
-        from mjdrive.recording.playback import Playback
+    from mjdrive.cli.single_drive import drive_once
 
-        video = {"video": folder / filming.VIDEO}
-        playback = Playback(episode, car=car_name)
-        landscape = filming.landscape_of(driver)
-        filming.write_video(playback, folder / filming.VIDEO, landscape=landscape)
-    closing_table(
-        f"{driver.name} in {town.name}, seed {seed}",
-        {
-            "car": driver.car_note(car),
-            "distance": f"{summary.distance_m:,.1f} m in {summary.duration_s:,.1f} s",
-            "red lights": summary.red_lights,
-            "collisions": summary.collisions,
-            "off road": f"{summary.road_departures} times, {summary.off_road_s:.1f} s",
-            "wrong way": summary.wrong_ways,
-            "stuck": f"{summary.standstills} times",
-            "off the lane's middle": _offset(summary.lane_keeping.offset_rms_m),
-            "score": f"{summary.score:,.1f}",
-            **driver.solve_notes(episode, sum(late_solves)),
-            "path": folder / "trajectory.png",
-            "actions": folder / "actions.png",
-            **video,
-            "figures": folder / "summary.json",
-            "episode": folder / "episode.hdf5",
-        },
-        next_command=f"mjdrive drive --town {town.name} --policy pid --seed {seed}"
-        if driver.pilot is not None
-        else f"mjdrive drive --town {town.name} --policy {driver.name} --seed {seed + 1}",
-    )
+    drive_once(driver, town, folder, car=car, num_steps=num_steps, seed=seed, is_filmed=is_filmed)
 
 
 def _require_one(num_episodes: int | None) -> None:
@@ -208,8 +163,3 @@ def _require_alone(jobs: Jobs, backend: str, address: str | None) -> None:
             "--jobs, --backend and --address share out several drives; expected --episodes N with them. "
             "A single drive is made here, one step after the other."
         )
-
-
-def _offset(rms: float | None) -> str:
-    """Say how well the lane was kept; nothing is known of a car that never moved along one."""
-    return "not known" if rms is None else f"{rms:.2f} m RMS outside junctions"

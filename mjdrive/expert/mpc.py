@@ -18,6 +18,7 @@ from mjdrive.expert.handover import Handover
 from mjdrive.expert.mpc_problem import MpcProblem
 from mjdrive.expert.mpc_solver import MpcSolver, SolveStatus
 from mjdrive.expert.pid import PidExpert
+from mjdrive.expert.pushes import PushWatch
 from mjdrive.expert.solves import SolveCounts
 from mjdrive.expert.speed_profile import Reference, SpeedProfile
 from mjdrive.vehicle.bicycle import BicycleState
@@ -29,13 +30,6 @@ HOLD_SPEED = 0.15
 
 HOLD_DISTANCE = 0.4
 """It has come to its resting place when that is this near [m]."""
-
-PUSHED = 0.06
-"""Wheels this far from their command have been turned by something else than the rack [rad]."""
-
-RECOVERED_OFFSET = 0.25
-RECOVERED_HEADING = 0.12
-"""A pushed car is back when it is this near to its route [m] and to its direction [rad]."""
 
 
 class _Plan(NamedTuple):
@@ -102,6 +96,7 @@ class MpcExpert:
         self._plan: _Plan | None
         self._last: Action | None
         self._handover = Handover(control_interval)
+        self._pushes = PushWatch(self._car.max_steering_angle)
         self.reset(0)
 
     def reset(self, seed: int) -> None:
@@ -128,11 +123,11 @@ class MpcExpert:
         if self._is_at_rest(view, distance):
             self._forget()
             return Action(acceleration=-1.0, steering=0.0)
-        self._recovers = self._is_recovering(view)
+        recovers = self._pushes.look(view, self._last, follows_plan=self._plan is not None)
         is_hard_stop = self._is_hard_stop(view, distance)
-        self.solves.recoveries += self._recovers
-        self.solves.hard_stops += is_hard_stop and not self._recovers
-        planned = None if self._recovers or is_hard_stop else self._planned(view, distance)
+        self.solves.recoveries += recovers
+        self.solves.hard_stops += is_hard_stop and not recovers
+        planned = None if recovers or is_hard_stop else self._planned(view, distance)
         if planned is None:
             self._plan = None
             planned = self._handover.take_over(stand_in)
@@ -145,24 +140,7 @@ class MpcExpert:
         self._plan = None
         self._last = None
         self._handover.forget()
-        self._recovers = False
-
-    def _is_recovering(self, view: Situation) -> bool:
-        """Whether something else than the last command turned the wheels, and the car is not yet back on its line.
-
-        Plans are smooth: their commands move no faster than the rack. Against a push that uses up the rack's rate that is
-        too slow, and a wheel that is late winds the plan up (docs/notes.md); the PID's command jumps.
-        """
-        if self._last is None:
-            return False
-        command = self._last.steering * self._car.max_steering_angle
-        if abs(view.vehicle.steering_angle - command) > PUSHED and (
-            self._recovers or self._plan is not None
-        ):
-            return True
-        offset, heading_error = frenet_state(view)
-        is_back = abs(offset) < RECOVERED_OFFSET and abs(heading_error) < RECOVERED_HEADING
-        return self._recovers and not is_back
+        self._pushes.forget()
 
     def _take_route(self, route: Route) -> None:
         self._route = route

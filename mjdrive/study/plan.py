@@ -13,7 +13,7 @@ from mjdrive.study.jobs.forks import ForkJob, chosen_approaches
 from mjdrive.study.jobs.judging import JudgeJob
 from mjdrive.study.records import results
 from mjdrive.study.records.folder import StudyFolder
-from mjdrive.study.settings.agents import ArmAgent, agents, arm_agents, main_arm
+from mjdrive.study.settings.agents import ArmAgent, agents, arm_agents, arm_settings, main_arm
 from models.config import Precision
 
 LONG = "long"
@@ -99,7 +99,7 @@ def plan_arms(
             it,
             config,
             folder,
-            drivers.agent(it.name, runs[it.agent.name], it.arm.acting, precision),
+            drivers.agent(it.name, runs[it.agent.name], arm_settings(config, it.arm), precision),
             approaches,
         )
         for it in arm_agents(config)
@@ -127,7 +127,10 @@ def plan_progress(
         losses = checkpoints.losses(run)
         for epoch, checkpoint in sorted(checkpoints.kept_epochs(run).items()):
             who = drivers.agent(
-                f"{arm.name}-{agent.seed}-epoch-{epoch:04d}", checkpoint, arm.acting, precision
+                f"{arm.name}-{agent.seed}-epoch-{epoch:04d}",
+                checkpoint,
+                arm_settings(config, arm),
+                precision,
             )
             drives = _drives(
                 who, config, folder, count=config.progress_episodes, steps=config.progress_steps

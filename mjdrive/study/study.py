@@ -1,7 +1,5 @@
 """A whole study: demonstrations, training, drives and judgement, tables and report, each gone on with where it stopped."""
 
-import dataclasses
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -21,13 +19,13 @@ from mjdrive.study.jobs.driving import Place, drive_all
 from mjdrive.study.jobs.forks import live_forks
 from mjdrive.study.jobs.judging import Judging, judge_all
 from mjdrive.study.jobs.sharing import Report
-from mjdrive.study.jobs.training import TrainingJob, train_all
+from mjdrive.study.jobs.training import train_all, training_job
 from mjdrive.study.plan import ArmPlan, plan_arms, plan_progress, plan_references
 from mjdrive.study.records.folder import HELD_OUT, StudyFolder, begin
 from mjdrive.study.records.results import StudyRecord, StudyResults
 from mjdrive.study.records.situations import situations
 from mjdrive.study.report.report import write_report
-from mjdrive.study.settings.agents import Agent, agents, learner_config, require_buildable
+from mjdrive.study.settings.agents import agents, learner_config, require_buildable
 from mjdrive.study.videos import videos
 from mjdrive.town import library
 from mjdrive.vehicle import cars
@@ -162,29 +160,12 @@ class Study:
                 checkpoints.require_planned(run, it, learner_config(it.variant))
                 checkpoints.require_trained_on(run, it, manifest_sha256=digests[name])
             else:
-                jobs.append(self._training_job(it, data[name], run, samples[name]))
+                jobs.append(
+                    training_job(it, data[name], run, config=self.config, num_samples=samples[name])
+                )
         report = stage("train", len(jobs))
         train_all(jobs, executor=self.executor, report=report)
         return runs
-
-    def _training_job(self, agent: Agent, data: Path, run: Path, num_samples: int) -> TrainingJob:
-        settings = learner_config(agent.variant)
-        device = choose_device()
-        precision = resolved(settings.optimiser.precision, device)
-        optimiser = dataclasses.replace(settings.optimiser, precision=precision)
-        settings = dataclasses.replace(settings, optimiser=optimiser)
-        num_training = num_samples - math.floor(optimiser.validation_share * num_samples)
-        return TrainingJob(
-            name=agent.name,
-            config=settings,
-            seed=agent.seed,
-            data=data,
-            run=run,
-            keep_every=0 if agent.variant.change else self.config.progress_every,
-            num_steps=optimiser.epochs * math.ceil(num_training / optimiser.batch_size),
-            threads=self.config.threads,
-            device=device.type,
-        )
 
     def _evaluate(
         self, data: Mapping[str, Path], runs: dict[str, Path], stage: Stage

@@ -26,6 +26,7 @@ class Hub:
         self.pages: frozenset[Outbox] = frozenset()  # replaced, never changed: others look at it
         self._loop: asyncio.AbstractEventLoop | None = None
         self._num_poses = self._num_notes = self._num_pages = 0
+        self._state: tuple[dict[str, Any], Standing] | None = None  # as it was told last
 
     def attach(self, loop: asyncio.AbstractEventLoop) -> None:
         """Speak through this event loop from now on."""
@@ -40,6 +41,12 @@ class Hub:
     def remove(self, page: Outbox) -> None:
         """A page has gone."""
         self.pages -= {page}
+
+    def set_slow(self, page: Outbox, is_slow: bool) -> None:
+        """A page's link is slow from now on, or no longer; it hears that this was understood."""
+        page.slow = is_slow
+        if self._state is not None:
+            self._put_state(*self._state)
 
     async def beat(self) -> None:
         """Give signs of life, for ever: what is paused and what is dead looks alike to a page."""
@@ -99,7 +106,7 @@ class Hub:
             "driver": _number(standing.driver),
             "asking": [_number(page) for page in standing.asking],
         }
-        driver = standing.driver
+        driver, self._state = standing.driver, (values, standing)
         for page in self.pages:
             wheel = "free" if driver is None else "yours" if driver is page else "taken"
             own = {"you": page.number, "wheel": wheel, "link": "slow" if page.slow else "full"}

@@ -101,7 +101,7 @@ async def _serve(websocket: WebSocket, hub: Hub, simulator: Simulator) -> None:
     try:
         while True:
             message = await asyncio.wait_for(websocket.receive_text(), MOST_SILENCE)
-            _hear(message, outbox, simulator)
+            _hear(message, outbox, hub, simulator)
     except TimeoutError:
         with contextlib.suppress(RuntimeError):  # it has gone
             reason = f"The page said nothing for {MOST_SILENCE:.0f} s."
@@ -120,7 +120,7 @@ async def _serve(websocket: WebSocket, hub: Hub, simulator: Simulator) -> None:
             await asyncio.gather(pump, return_exceptions=True)  # it may have met the end before us
 
 
-def _hear(message: str, outbox: Outbox, simulator: Simulator) -> None:
+def _hear(message: str, outbox: Outbox, hub: Hub, simulator: Simulator) -> None:
     """Obey one message of a page.
 
     Raises:
@@ -132,7 +132,7 @@ def _hear(message: str, outbox: Outbox, simulator: Simulator) -> None:
     elif command.op == "hidden":
         outbox.hidden = command.values["on"]
     elif command.op == "slow":
-        outbox.slow = command.values["on"]
+        hub.set_slow(outbox, command.values["on"])
     elif not simulator.inbox.put(command, outbox):
         busy = {"line": "The simulator is busy; that was not heard.", "error": True}
         outbox.put_text("busy", wire.text("note", busy))

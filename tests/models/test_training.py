@@ -1,4 +1,5 @@
 import dataclasses
+import itertools
 import json
 
 import pytest
@@ -32,9 +33,13 @@ def assert_same(first, second):
         assert torch.equal(first[name], second[name]), name
 
 
-@pytest.mark.parametrize("method", ["bc-beta", "da-ibc"])
-def test_a_resumed_run_ends_with_the_same_bits(method, small_config, demonstrations, tmp_path):
-    config = small_config(method, schedule="onecycle", ema_decay=0.5, weight_decay=0.01)
+@pytest.mark.parametrize(("method", "per_pass"), [("bc-beta", 1), ("da-ibc", 1), ("bc-beta", 2)])
+def test_a_resumed_run_ends_with_the_same_bits(
+    method, per_pass, small_config, demonstrations, tmp_path
+):
+    config = small_config(
+        method, schedule="onecycle", ema_decay=0.5, weight_decay=0.01, epochs_per_pass=per_pass
+    )
     straight, history = train(config, demonstrations)
     with pytest.raises(StoppedError):
         train(config, demonstrations, folder=tmp_path, on_epoch=stop)
@@ -108,6 +113,30 @@ def test_rare_actions_are_drawn_more_often(small_config, demonstrations):
     spy = Spy(Batch(bev, torch.zeros(50, 3), actions))
     train(small_config("bc-beta", epochs=2, batch_size=50), spy)
     assert 30 <= seen.count(49) <= 70  # half of 100 draws
+
+
+def test_epochs_of_one_pass_see_each_pair_once(small_config, demonstrations):
+    seen = []
+
+    class Spy(TensorDemonstrations):
+        def batch(self, indices):
+            seen.append(indices.tolist())
+            return super().batch(indices)
+
+    config = small_config("bc-beta", epochs=6, epochs_per_pass=3)  # ten pairs in fours
+    config = dataclasses.replace(
+        config, density=dataclasses.replace(config.density, weighting="none")
+    )
+    steps = []
+    train(config, Spy(demonstrations.batch(torch.arange(10))), on_step=steps.append)
+    assert [len(it) for it in seen] == [4, 3, 3] * 2
+    first, second = (list(itertools.chain(*seen[begin : begin + 3])) for begin in (0, 3))
+    assert sorted(first) == sorted(second) == list(range(10))
+    assert first != second
+    assert [it.step for it in steps] == list(range(1, 7))
+    assert {it.num_steps for it in steps} == {6}
+    with pytest.raises(TrainingError, match="10 demonstrations cannot be cut into 11 epochs"):
+        train(small_config("bc-beta", epochs_per_pass=11), demonstrations)
 
 
 def test_loss_weights_reach_the_loss(small_config, demonstrations):

@@ -10,6 +10,7 @@ from mjdrive.config import read_json
 from mjdrive.episodes import store
 from mjdrive.errors import RunError
 from mjdrive.learning import runs
+from mjdrive.learning.settings import ACTING
 from mjdrive.learning.training import Source
 from mjdrive.study.settings.agents import Agent
 from models import checkpoint, serialization
@@ -83,7 +84,7 @@ def find_run(agent: Agent, trained: Path) -> Path | None:
 
 
 def require_planned(run: Path, agent: Agent, config: LearnerConfig) -> None:
-    """Refuse a run that is not what the study says of it.
+    """Refuse a run that has not learnt what the study says; how it acts is for the study's arms to say, whatever it has.
 
     Args:
         run: Run folder.
@@ -134,12 +135,12 @@ def _settled_as(config: LearnerConfig, found: LearnerConfig) -> LearnerConfig:
 
 
 def _differing(wanted: LearnerConfig, found: LearnerConfig) -> list[str]:
-    """Settings that differ and have an effect, with both values."""
+    """Settings that differ and have an effect on what is learnt, with both values."""
     here, there = effective_settings(wanted), effective_settings(found)
     return [
         f"{name} {there.get(name)} (here {here.get(name)})"
         for name in sorted({*here, *there})
-        if here.get(name) != there.get(name)
+        if here.get(name) != there.get(name) and not name.startswith(ACTING)
     ]
 
 

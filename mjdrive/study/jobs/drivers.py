@@ -13,12 +13,11 @@ from mjdrive.datatypes import Episode
 from mjdrive.episodes import driving
 from mjdrive.errors import RunError
 from mjdrive.learning.pilot import Pilot
-from mjdrive.learning.settings import acting_changed
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.study.jobs.checkpoints import digest
 from mjdrive.town.rightmost import rightmost
 from models import checkpoint, serialization
-from models.config import Precision
+from models.config import LearnerConfig, Precision
 from models.errors import ModelsError
 from models.interfaces import Learner
 
@@ -31,7 +30,7 @@ class Who:
         name: Of its files: arm and training seed, or the reference.
         digest: SHA-256 of the weights, hexadecimal; empty for a reference.
         run: Folder of the trained run; None for a reference.
-        acting: Changes to the settings that it was trained with.
+        settings: How it acts; None for a reference.
         precision: Number format to score actions in where the settings of an agent leave it open.
         reference: Which reference it is; None for an agent.
         walk: Which random turns the expert takes from the same starts [-].
@@ -40,22 +39,22 @@ class Who:
     name: str
     digest: str = ""
     run: Path | None = None
-    acting: tuple[str, ...] = ()
+    settings: LearnerConfig | None = None
     precision: Precision = "float32"
     reference: Reference | None = None
     walk: int = 0
 
 
-def agent(name: str, run: Path, acting: tuple[str, ...], precision: Precision) -> Who:
+def agent(name: str, run: Path, settings: LearnerConfig, precision: Precision) -> Who:
     """An agent in a way to act.
 
     Args:
         name: Of its files.
         run: Folder of the trained run.
-        acting: Changes to the settings that it was trained with.
+        settings: How it acts.
         precision: Number format to score actions in where its settings leave it open.
     """
-    return Who(name, digest(run), run, acting, precision)
+    return Who(name, digest(run), run, settings, precision)
 
 
 def load_learner(who: Who) -> Learner:
@@ -65,6 +64,7 @@ def load_learner(who: Who) -> Learner:
         RunError: If the folder is no run, a file of it is damaged, or it has other weights than when it was planned.
     """
     assert who.run is not None, "a reference has no network"
+    assert who.settings is not None, "the study says how an agent acts"
     try:
         learner = checkpoint.load(who.run)
     except ModelsError as error:
@@ -73,7 +73,8 @@ def load_learner(who: Who) -> Learner:
         raise RunError(
             f"The run '{who.run}' has changed since the study began. Run the same command again."
         )
-    learner.config = acting_changed(learner.config, who.acting)
+    # The number format of training stays that which it settled on.
+    learner.config = dataclasses.replace(who.settings, optimiser=learner.config.optimiser)
     sampler = learner.config.sampler
     if sampler.precision == "auto":  # else each machine would settle on its own
         sampler = dataclasses.replace(sampler, precision=who.precision)

@@ -1,5 +1,7 @@
 """Train the agents of a study, each in a run folder of its own that can be gone on with."""
 
+import dataclasses
+import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -8,12 +10,16 @@ from pathlib import Path
 import torch
 
 from mjdrive import versions
+from mjdrive.config import StudyConfig
 from mjdrive.execution.work import Executor, Tell
 from mjdrive.learning import runs
 from mjdrive.learning.training import train
 from mjdrive.study.jobs.checkpoints import keep_epoch
 from mjdrive.study.jobs.sharing import Report, do_all
+from mjdrive.study.settings.agents import Agent, learner_config
 from models.config import LearnerConfig
+from models.energy_scoring import resolved
+from models.hardware import choose_device
 from models.progress import StepReport
 
 
@@ -62,6 +68,36 @@ class Training:
         """
         versions.require_same(self.versions)
         return _train
+
+
+def training_job(
+    agent: Agent, data: Path, run: Path, *, config: StudyConfig, num_samples: int
+) -> TrainingJob:
+    """What is to be done to train an agent, in the number format that this machine is fast at.
+
+    Args:
+        agent: Whose run.
+        data: Folder of the demonstrations.
+        run: Run folder.
+        config: Settings of the study.
+        num_samples: Demonstrations [-].
+    """
+    settings = learner_config(agent.variant)
+    device = choose_device()
+    precision = resolved(settings.optimiser.precision, device)
+    optimiser = dataclasses.replace(settings.optimiser, precision=precision)
+    num_training = num_samples - math.floor(optimiser.validation_share * num_samples)
+    return TrainingJob(
+        name=agent.name,
+        config=dataclasses.replace(settings, optimiser=optimiser),
+        seed=agent.seed,
+        data=data,
+        run=run,
+        keep_every=0 if agent.variant.change else config.progress_every,
+        num_steps=optimiser.epochs * optimiser.steps_per_epoch(num_training),
+        threads=config.threads,
+        device=device.type,
+    )
 
 
 def train_all(jobs: Sequence[TrainingJob], *, executor: Executor, report: Report) -> None:

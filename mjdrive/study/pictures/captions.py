@@ -16,8 +16,8 @@ CAPTIONS = {
     ),
     "trajectories": (
         "Trajectories of BC and DA-IBC",
-        "Each agent's long drive through a town that it has never seen, without a route. The darker a line, the more often the "
-        "street was driven; crosses and stars are infractions. The paper's figure shows the same for 3,000 s.",
+        "The first 3,000 s of each agent's long drive through a town that it has never seen, without a route. The darker a line, the more often the "
+        "street was driven; crosses and stars are infractions. The paper's figure shows the same.",
     ),
     "all-trajectories": (
         "Trajectories of all methods and references",

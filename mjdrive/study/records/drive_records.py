@@ -16,6 +16,9 @@ from mjdrive.study.records.results import DrivenPath
 
 _MISHAPS = (InfractionKind.COLLISION, InfractionKind.OFF_ROAD)
 
+PATH_STEPS = 30_000
+"""Control steps that a path shows, as many as the paper's figure [-]."""
+
 
 @dataclass(frozen=True, slots=True)
 class DriveRecord:
@@ -27,7 +30,7 @@ class DriveRecord:
         length_m: Path length on driving lanes, for what is counted over it [m].
         passages: When a way through a junction was driven to its end [s], and the name of its lane.
         visits: After which distance each directed lane was first visited [m], by name.
-        path: Where it led; None where nobody looks at it.
+        path: Where its first `PATH_STEPS` led; None where nobody looks at it.
     """
 
     digest: str
@@ -97,17 +100,23 @@ def _figures(episode: Episode, town: Town, interval: float) -> DriveFigures:
 
 
 def _path(episode: Episode, arm: str, seed: int) -> DrivenPath:
+    interval = control_interval(episode)
+    steps = min(len(episode.time), PATH_STEPS)
+    end = float(episode.time[0]) + (steps + 0.5) * interval  # what the last step did counts, too
+
     def places(*kinds: InfractionKind) -> tuple[tuple[float, float], ...]:
         return tuple(
-            (round(it.x, 2), round(it.y, 2)) for it in episode.infractions if it.kind in kinds
+            (round(it.x, 2), round(it.y, 2))
+            for it in episode.infractions
+            if it.kind in kinds and it.time < end
         )
 
     return DrivenPath(
         arm=arm,
         seed=seed,
         town=episode.town,
-        duration_s=round(len(episode.time) * control_interval(episode), 4),
-        points=thinned_path(episode),
+        duration_s=round(steps * interval, 4),
+        points=thinned_path(episode, steps=steps),
         red_lights=places(InfractionKind.RED_LIGHT),
         mishaps=places(*_MISHAPS),
     )

@@ -113,8 +113,8 @@ def exit_of(drive: Episode, fork: Fork, town: Town) -> str:
 
 
 def thinned_path(
-    drive: Episode, interval: float = POINT_INTERVAL
+    drive: Episode, interval: float = POINT_INTERVAL, *, steps: int | None = None
 ) -> tuple[tuple[float, float], ...]:
-    """Where the rear axle was every so often [s], to the centimetre, world frame [m]."""
+    """Where the rear axle was every so often [s], in so many control steps or all, to the centimetre, world frame [m]."""
     step = max(1, round(interval / metrics.control_interval(drive)))
-    return tuple((round(x, 2), round(y, 2)) for x, y in drive.vehicle[::step, :2].tolist())
+    return tuple((round(x, 2), round(y, 2)) for x, y in drive.vehicle[:steps:step, :2].tolist())

@@ -210,7 +210,7 @@ class LandscapeRecord:
 
 @dataclass(frozen=True, slots=True)
 class DrivenPath:
-    """Where a long drive led, five times as coarse as it was driven.
+    """Where a long drive led in its first 3,000 s, five times as coarse as it was driven.
 
     Attributes:
         arm: Name of the arm, or of the reference.

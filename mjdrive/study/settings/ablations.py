@@ -2,8 +2,8 @@
 
 from mjdrive.config import Arm, Variant
 
-LONG = ("optimiser.epochs=4", "optimiser.batch_size=64")
-"""How long agents of a standard study learn from 100 km: some 19,000 steps, nine times those of a standard run on ten routes."""
+LONG = ("optimiser.epochs=4", "optimiser.epochs_per_pass=4", "optimiser.batch_size=64")
+"""How long agents of a standard study learn: one pass of some 19,000 steps, nine times those of a standard run on ten routes."""
 
 LONG_STEEP = (*LONG, "optimiser.learning_rate=6e-4")
 """The same for methods with a large step size, which smaller minibatches make smaller."""

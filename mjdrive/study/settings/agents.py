@@ -84,6 +84,17 @@ def learner_config(variant: Variant) -> LearnerConfig:
     return learner_settings(variant.method, preset=variant.preset, assignments=variant.assignments)
 
 
+def arm_settings(config: StudyConfig, arm: Arm) -> LearnerConfig:
+    """Settings that the agents of an arm act with.
+
+    Raises:
+        ConfigError: If one has no meaning, or decides what is learnt.
+        UnknownNameError: If there is no such method, preset or setting.
+    """
+    variant = next(it for it in config.variants if it.name == arm.variant)
+    return acting_changed(learner_config(variant), arm.acting)
+
+
 def require_buildable(config: StudyConfig) -> None:
     """Refuse a study with settings that no learner has, before anything runs.
 
@@ -91,9 +102,10 @@ def require_buildable(config: StudyConfig) -> None:
         ConfigError: If a setting has no meaning; it names the variant or the arm.
         UnknownNameError: If there is no such method, preset or setting.
     """
-    learnt = {variant.name: learner_config(variant) for variant in config.variants}
+    for variant in config.variants:
+        learner_config(variant)
     for arm in config.arms:
         try:
-            acting_changed(learnt[arm.variant], arm.acting)
+            arm_settings(config, arm)
         except ConfigError as error:
             raise ConfigError(f"The arm {arm.name} of the study cannot act: {error}") from error

@@ -135,3 +135,20 @@ def test_what_waits_for_a_page_that_does_not_listen_is_bounded() -> None:
         assert lines == [str(number) for number in range(9 * MOST_TEXTS, 10 * MOST_TEXTS)]
 
     play(scenario)
+
+
+def test_a_page_hears_at_once_that_its_slow_link_was_understood() -> None:
+    async def scenario(hub: Hub) -> None:
+        fast, slow = Page(hub), Page(hub)
+        hub.set_slow(slow.outbox, is_slow=True)  # nothing is known yet that could be told
+        hub.tell_state({"paused": True}, Standing())
+        hub.set_slow(slow.outbox, is_slow=False)
+        for page in (fast, slow):
+            await page.pumped()
+        told = [json.loads(page.heard[-1]) for page in (fast, slow)]
+        assert [(it["link"], it["paused"]) for it in told] == [("full", True)] * 2
+        hub.set_slow(slow.outbox, is_slow=True)
+        await slow.pumped()
+        assert json.loads(slow.heard[-1])["link"] == "slow"
+
+    play(scenario)

@@ -1,6 +1,6 @@
 // The address holds what is shown, so that a finding can be sent to a colleague.
 
-const KNOWN = ["tab", "town", "policy", "seed", "camera", "episode", "t"] as const;
+const KNOWN = ["tab", "town", "policy", "seed", "camera", "episode", "t", "link"] as const;
 type Name = (typeof KNOWN)[number];
 
 export const asked = (name: Name | "noaa"): string | null => new URLSearchParams(location.search).get(name);

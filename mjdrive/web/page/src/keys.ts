@@ -44,7 +44,7 @@ export class Keys {
 
   private down(event: KeyboardEvent, shortcuts: Shortcuts): void {
     const target = event.target as HTMLElement, name = event.key === " " ? "Space" : event.key;
-    if (event.defaultPrevented || target.closest("input, select, textarea, dialog[open]") || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.defaultPrevented || target.closest("input:not([type=checkbox]), select, textarea, dialog[open]") || event.ctrlKey || event.metaKey || event.altKey) return;
     const key = DRIVE[event.code];
     if (key) this.held.add(key); // also before the wheel has come: whoever asks for it presses the next key at once
     if (key && this.isDriving) {
@@ -53,7 +53,7 @@ export class Keys {
       return;
     }
     const shortcut = shortcuts[name.length === 1 ? name.toLowerCase() : name];
-    if (!shortcut || event.repeat || (target.closest("button") && ["Space", "Enter"].includes(name))) return;
+    if (!shortcut || event.repeat || (target.closest("button, input") && ["Space", "Enter"].includes(name))) return;
     event.preventDefault();
     shortcut();
   }

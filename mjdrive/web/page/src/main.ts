@@ -20,14 +20,22 @@ const controls = new Controls(send);
 const replay = new Replay(live, note);
 const episodes = new Episodes((name) => { choose("live"); void replay.open(name); }, (line) => note(line, true));
 const runs = new Runs();
+const slow = $<HTMLInputElement>("slow");
 let state: State | undefined;
+
+slow.checked = asked("link") === "slow";
+slow.onchange = () => { sayLink(); remember({ link: slow.checked ? "slow" : null }); };
 
 const link = new Link({
   message: (message) => live.hear(message),
   state: showState,
   note,
   scene: () => { if (!replay.isOpen) void loadScene(); },
-  status: (line, isLive) => { $("status").textContent = line; document.body.classList.toggle("lost", !isLive); },
+  status: (line, isLive) => {
+    $("status").textContent = line;
+    document.body.classList.toggle("lost", !isLive);
+    if (isLive && slow.checked) sayLink(); // each connection begins as a full one
+  },
 });
 
 const keys = new Keys({ hold: (command) => link.hold(command), giveBack: () => controls.giveBack() }, {
@@ -47,6 +55,8 @@ function showState(told: State): void {
   $("status").textContent = `live · page ${told.you}${told.pages > 1 ? ` of ${told.pages} open` : ""}`;
   if (isFirst) void controls.begin().catch((error: Error) => note(error.message, true));
 }
+
+function sayLink(): void { send({ op: "slow", on: slow.checked }); }
 
 function note(line: string, isError: boolean): void {
   const box = $("note");

@@ -9,6 +9,7 @@ import torch
 from mjdrive.study.jobs import drivers
 from mjdrive.study.jobs.drivers import Who
 from models import presets
+from models.config import CommitmentConfig
 from models.learners import build_learner
 
 
@@ -24,7 +25,8 @@ def test_an_agent_acts_on_the_cpu_in_the_format_of_the_study_on_every_machine(
     monkeypatch.setattr(
         "models.hardware.bfloat16_is_fast", lambda device="cpu": precision == "float32"
     )
-    pilot = drivers.load_pilot(Who("a", digest="ab", run=Path("a"), precision=precision))
+    who = Who("a", digest="ab", run=Path("a"), settings=learner.config, precision=precision)
+    pilot = drivers.load_pilot(who)
     assert pilot.device == torch.device("cpu")
     assert pilot.config.sampler.precision == precision
 
@@ -35,5 +37,20 @@ def test_an_agent_keeps_a_format_that_its_settings_name(monkeypatch: pytest.Monk
     learner.config = dataclasses.replace(learner.config, sampler=sampler)
     monkeypatch.setattr("models.checkpoint.load", lambda run: learner)
     monkeypatch.setattr(drivers, "digest", lambda run: "ab")
-    found = drivers.load_learner(Who("a", digest="ab", run=Path("a"), precision="float32"))
+    who = Who("a", digest="ab", run=Path("a"), settings=learner.config, precision="float32")
+    found = drivers.load_learner(who)
     assert found.config.sampler.precision == "bfloat16"
+
+
+def test_an_agent_acts_as_the_study_says_whatever_its_run_has(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    planned = presets.quick("da-ibc")
+    other = dataclasses.replace(planned, commitment=CommitmentConfig(hold=7))
+    settled = dataclasses.replace(other.optimiser, precision="bfloat16")
+    learner = build_learner(dataclasses.replace(other, optimiser=settled), seed=0)
+    monkeypatch.setattr("models.checkpoint.load", lambda run: learner)
+    monkeypatch.setattr(drivers, "digest", lambda run: "ab")
+    found = drivers.load_learner(Who("a", digest="ab", run=Path("a"), settings=planned)).config
+    assert found.commitment == planned.commitment != other.commitment
+    assert found.optimiser == settled  # what it was trained with

@@ -97,6 +97,15 @@ def test_what_is_driven_is_kept_as_a_demonstration(bench: Any) -> None:
     assert len(episode.time) > 15
 
 
+def test_what_is_dropped_leaves_nothing(bench: Any) -> None:
+    bench.take_the_wheel()
+    before = demonstrations(bench)
+    bench.wait(lambda: bench.watcher.state["recorded"] > 3, "some steps")
+    bench.page.keyboard.press("Delete")
+    bench.wait(lambda: bench.watcher.state["recorded"] < 3, "the recording to begin anew")
+    assert demonstrations(bench) == before
+
+
 def test_a_gamepad_drives(bench: Any) -> None:
     bench.page.evaluate(PAD)
     bench.take_the_wheel()

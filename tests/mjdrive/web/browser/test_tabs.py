@@ -37,6 +37,21 @@ def test_a_replay_is_scrubbed_and_its_address_leads_to_the_same_moment(bench: An
     bench.wait(lambda: bench.watcher.panel["tick"] > tick, "the live drive to go on")
 
 
+def test_a_replay_shows_its_own_town_while_another_is_driven_in(bench: Any) -> None:
+    bench.page.select_option("#town", "town02")
+    bench.watcher.until(town="town02")
+    bench.see("mjdrive.live.town === 'town02'")
+    assert "town=town02" in bench.page.url
+    bench.page.click("#tab-episodes")
+    bench.page.click("text=drives/drive-0/episode")
+    bench.see("mjdrive.replay.isOpen && mjdrive.live.town === 'town03'")
+    bench.page.keyboard.press("Escape")
+    bench.see("!mjdrive.replay.isOpen && mjdrive.live.town === 'town02'")
+    bench.page.select_option("#town", "town03")
+    bench.watcher.until(town="town03")
+    bench.see("mjdrive.live.town === 'town03'")
+
+
 def test_an_episode_is_exported_byte_by_byte(bench: Any, tmp_path: Path) -> None:
     bench.page.click("#tab-episodes")
     with bench.page.expect_download() as download:

@@ -112,3 +112,35 @@ def test_arrow_keys_and_enter_force_an_action_without_a_mouse(bench: Any) -> Non
     bench.wait(lambda: bench.watcher.panel["tick"] == tick + 1, "the forced step")
     wanted = [max(acceleration - 1 / 32, -1.0), min(steering + 1 / 32, 1.0)]
     assert bench.watcher.panel["driven"] == pytest.approx(wanted, abs=1e-3)
+
+
+def test_a_slow_link_gets_the_same_pictures_packed(bench: Any) -> None:
+    bench.page.click("#pause")
+    tick = bench.watcher.pause()["tick"]
+    bench.page.check("#slow")
+    bench.see("mjdrive.state().link === 'slow'")
+    other = bench.open()
+    assert other.evaluate("mjdrive.state().link") == "full"
+    bench.page.keyboard.press(".")
+    for page in (bench.page, other):
+        page.wait_for_function(
+            f"document.querySelector('#bev-tick').textContent === 'tick {tick + 1}'", polling=100
+        )
+    assert bench.page.evaluate(PIXELS) == other.evaluate(PIXELS)
+    assert "link=slow" in bench.page.url
+    other.goto(bench.page.url)
+    other.wait_for_function("window.mjdrive?.state()?.link === 'slow'", polling=100)
+    other.close()
+    bench.page.uncheck("#slow")
+    bench.see("mjdrive.state().link === 'full'")
+    assert "link" not in bench.page.url
+
+
+def test_a_drive_that_has_stopped_says_why(bench: Any) -> None:
+    fault = "The policy asked for nothing."
+    bench.page.evaluate(
+        f"mjdrive.live.setState({{...mjdrive.state(), fault: {fault!r}}})",
+    )
+    assert bench.page.inner_text("#fault") == f"The drive has stopped. {fault}"
+    bench.page.evaluate("mjdrive.live.setState(mjdrive.state())")
+    assert not bench.page.is_visible("#fault")

@@ -1,0 +1,27 @@
+"""What a study has to do."""
+
+from pathlib import Path
+
+import pytest
+
+from mjdrive.config import StudyConfig
+from mjdrive.datatypes import Town
+from mjdrive.study import plan
+from mjdrive.study.jobs import drivers
+from mjdrive.study.records.folder import StudyFolder
+from mjdrive.study.settings.agents import agents
+
+
+def test_agents_act_as_their_arms_say(
+    tiny: StudyConfig, town02: Town, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(drivers, "digest", lambda run: "ab")
+    runs = {it.name: tmp_path / it.name for it in agents(tiny)}
+    arms = plan.plan_arms(tiny, StudyFolder(tmp_path), runs, town02, precision="float32")
+    settings = {it.who.name: it.who.settings for it in arms}
+    assert settings["bc-beta-sample-3"].beta.inference == "sample"
+    assert settings["da-ibc-sample-3"].sampler.grid.choice == "sample"
+    assert settings["da-ibc-argmin-3"].sampler.grid.choice == "argmin"
+    assert {it.sampler.grid.points for it in settings.values()} == {9}  # those of the variant
+    seen = {job.who for it in arms for job in (*it.all_drives, *it.forks)}
+    assert seen == {it.who for it in arms}
