@@ -14,11 +14,10 @@ from models.ahead import one_ahead
 from models.config import LearnerConfig, OptimiserConfig
 from models.density import action_density, inverse_weights
 from models.distributed import ALONE, Team, sum_over
+from models.epoch_order import EpochOrder, epoch_seed
 from models.errors import CheckpointError, TrainingError
-from models.evenness import speed_weights
 from models.interfaces import Batch, Chance, Demonstrations, Learner
 from models.progress import EpochReport, StepReport
-from models.samplers.draws import draw_categorical
 from models.schedule import learning_rate
 from models.training_state import TrainingState
 
@@ -100,11 +99,6 @@ def fit(
     return history
 
 
-def epoch_seed(seed: int, epoch: int, stream: int) -> int:
-    """Seed of one stream of chance in one epoch, so that no generator state has to be saved."""
-    return ((seed * 1_000_003 + epoch) * 2 + stream) % 2**63
-
-
 class _Minibatch(NamedTuple):
     """What one process takes of a minibatch.
 
@@ -144,16 +138,12 @@ class _Run:
         self.num_training = len(demonstrations) - math.floor(share * len(demonstrations))
         if self.num_training == 0:
             raise TrainingError("There are no demonstrations to train on. Collect some first.")
-        if self.num_training < self.settings.epochs_per_pass:
-            raise TrainingError(
-                f"{self.num_training} demonstrations cannot be cut into {self.settings.epochs_per_pass} epochs. Collect "
-                f"more, or lower optimiser.epochs_per_pass."
-            )
         self.actions = demonstrations.actions.to(device)
         actions = self.actions[: self.num_training]
         density = action_density(actions, learner.config.density)
         self.weights = inverse_weights(density, learner.config.density).cpu()
-        self.speeds = demonstrations.states[: self.num_training, 0].cpu()
+        speeds = demonstrations.states[: self.num_training, 0].cpu()
+        self.order = EpochOrder(learner.config, seed, speeds, self.weights)
         learner.prepare(actions, density)
         learner.to(device).train()
         self.state = TrainingState(learner, self.settings)
@@ -164,7 +154,7 @@ class _Run:
         started = time.perf_counter()
         num_steps = self.settings.epochs * self.steps_per_epoch
         losses, norms, rate = [], [], 0.0
-        order = self._order(epoch)
+        order = self.order.of(epoch)
         minibatches = one_ahead(self._minibatches(order, epoch, is_training=True))
         for step, minibatch in enumerate(minibatches, start=epoch * self.steps_per_epoch):
             rate = learning_rate(step, num_steps, self.settings)
@@ -188,22 +178,6 @@ class _Run:
             duration_s=duration_s,
             samples_per_s=len(order) / duration_s,
         )
-
-    def _order(self, epoch: int) -> Tensor:
-        """Indices of the pairs of one epoch: its part of those of a pass."""
-        done, part = divmod(epoch, self.settings.epochs_per_pass)
-        return self._pass_order(done).tensor_split(self.settings.epochs_per_pass)[part]
-
-    def _pass_order(self, done: int) -> Tensor:
-        """Indices of the pairs of the pass after so many: each once, or drawn by weight with replacement."""
-        generator = torch.Generator().manual_seed(epoch_seed(self.seed, done, 1))
-        density, evenness = self.learner.config.density, self.learner.config.evenness
-        if density.weighting != "sampler" and evenness.speed_exponent == 0:
-            return torch.randperm(self.num_training, generator=generator)
-        weights = speed_weights(self.speeds, evenness)
-        if density.weighting == "sampler":
-            weights = weights * self.weights
-        return draw_categorical(weights[None], self.num_training, generator=generator)[0]
 
     def _minibatches(self, order: Tensor, epoch: int, *, is_training: bool) -> Iterator[_Minibatch]:
         """Cut an order of pairs into minibatches and draw what chance decides about each."""

@@ -4,13 +4,10 @@ import pytest
 import torch
 
 from models.config import EvennessConfig
-from models.distributed import ALONE
+from models.epoch_order import EpochOrder
 from models.errors import SettingError
 from models.evenness import speed_weights
-from models.interfaces import Batch, TensorDemonstrations
-from models.learners import build_learner
 from models.presets import quick
-from models.training import _Run
 
 NUM_PAIRS = 4000
 
@@ -57,18 +54,9 @@ def test_an_epoch_draws_rare_speeds_more_often_and_leaves_what_is_done_at_them()
     speeds = _speeds()
     generator = torch.Generator().manual_seed(1)
     brakes = torch.rand(NUM_PAIRS, generator=generator) < torch.where(speeds == 0, 0.9, 0.2)
-    states = torch.stack((speeds, torch.zeros(NUM_PAIRS), torch.zeros(NUM_PAIRS)), dim=1)
-    actions = torch.stack((torch.where(brakes, -1.0, 1.0), torch.zeros(NUM_PAIRS)), dim=1)
-    bev = torch.zeros((NUM_PAIRS, 5, 1, 1), dtype=torch.uint8)
     config = dataclasses.replace(quick("bc-beta"), evenness=EvennessConfig(speed_exponent=1.0))
-    run = _Run(
-        build_learner(config, seed=0),
-        TensorDemonstrations(Batch(bev, states, actions)),
-        seed=0,
-        device=torch.device("cpu"),
-        team=ALONE,
-    )
-    drawn = torch.cat([run._order(epoch) for epoch in range(5)])
+    order = EpochOrder(config, 0, speeds, torch.ones(NUM_PAIRS))
+    drawn = torch.cat([order.of(epoch) for epoch in range(5)])
     stands = speeds[drawn] == 0
     assert stands.float().mean() < 0.2
     assert brakes[drawn][stands].float().mean() == pytest.approx(0.9, abs=0.03)
