@@ -11,13 +11,12 @@ import mjdrive.vehicle.engine  # noqa: F401  (no MUJOCO_LOG.TXT in the user's fo
 from mjdrive.datatypes import Action, VehicleState
 from mjdrive.geometry import world_from_vehicle, wrap_angle
 from mjdrive.vehicle.assembly import WHEELS
+from mjdrive.vehicle.movement import Movement
 from mjdrive.vehicle.parameters import VehicleParameters
 from mjdrive.vehicle.surroundings import Surroundings
 from mjdrive.vehicle.tyres import Tyres
 
-AIR_DENSITY = 1.2  # [kg/m3]
 STANDSTILL_SPEED = 0.05  # [m/s] and, of the wheels, [rad/s]
-HOLD_RESERVE = 20.0  # brake torque beyond gravity and engine before the wheels are locked [N m]
 _STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION) & ~int(mujoco.mjtState.mjSTATE_WARMSTART)
 
 
@@ -42,13 +41,12 @@ class Car:
         self._data = data
         _leave_static_geoms_in_place(model, data)
         self._tyres = Tyres(model, parameters)
-        self._surroundings = Surroundings(model)
-        self._body = model.body("car").id
+        self._movement = Movement(model, data, parameters, self._tyres.speeds)
+        self._surroundings = Surroundings(model, data)
         self._spin_dof = [int(model.joint(f"spin_{wheel}").dofadr[0]) for wheel in WHEELS]
         self._spin_qpos = np.array([model.joint(f"spin_{wheel}").qposadr[0] for wheel in WHEELS])
         self._lock = np.array([model.equality(f"lock_{wheel}").id for wheel in WHEELS])
         self._rack_qpos = model.joint("steer").qposadr[0]
-        self._throttle_act = model.actuator("throttle").actadr[0]
         self._brake_act = model.actuator("brake").actadr[0]
         self._throttle, self._brake, self._steering = (
             model.actuator(name).id for name in ("throttle", "brake", "steering")
@@ -59,13 +57,9 @@ class Car:
         self._rotation = np.empty(9)
         self._seen: tuple[bytes, VehicleState] | None = None
         self._friction = _numbers(model.dof_frictionloss)
-        self._force = _numbers(data.xfrc_applied[self._body])
         half, front = 0.5 * parameters.brake_torque, parameters.brake_front_share
         torques = [half * front] * 2 + [half * (1.0 - front)] * 2
         self._brake_torque = list(zip(self._spin_dof, torques, strict=True))
-        self._radius = parameters.wheel_radius
-        self._drag = -0.5 * AIR_DENSITY * parameters.drag_area
-        self._tyre_speeds = [0.0] * 4
         self._brake_applied = 0.0
         self._holding = False
 
@@ -108,16 +102,11 @@ class Car:
 
     def update(self) -> None:
         """Renew brakes, air drag, tyres and standstill hold from the state; call it some fifty times a second."""
-        radius, qvel = self._radius, self._qvel.tolist()
-        x_speed, y_speed, *_ = qvel
-        travel = math.hypot(x_speed, y_speed)
-        rolling = [abs(qvel[dof]) for dof in self._spin_dof]
         brake = self._act[self._brake_act]
-        drag = self._drag * travel
-        self._force[0], self._force[1] = drag * x_speed, drag * y_speed
-        self._apply([max(travel, rate * radius) for rate in rolling], brake)
-        self._hold(travel + max(rolling), brake)
-        self._surroundings.update(self._pose.tolist(), speed=travel)
+        self._movement.read()
+        self._apply(brake)
+        self._hold(brake)
+        self._surroundings.update(self._movement.speed())
 
     def state(self) -> VehicleState:
         """Read where the car is and how it moves, at the rear axle."""
@@ -149,7 +138,7 @@ class Car:
         physics = np.empty(mujoco.mj_stateSize(self._model, _STATE))
         mujoco.mj_getState(self._model, self._data, physics, _STATE)
         lock_angles = self._model.eq_data[self._lock, 0]
-        written = [*self._tyre_speeds, self._brake_applied, float(self._holding), *lock_angles]
+        written = [*self._tyres.speeds, self._brake_applied, float(self._holding), *lock_angles]
         return np.concatenate([physics, written])
 
     def restore(self, saved: Float[np.ndarray, " S"]) -> None:
@@ -161,12 +150,12 @@ class Car:
         size = mujoco.mj_stateSize(self._model, _STATE)
         assert len(saved) == size + 10, f"{len(saved)} numbers saved, {size + 10} needed"
         physics, written = saved[:size].astype(float), saved[size:]
-        self._apply(written[:4].tolist(), float(written[4]))
+        self._tyres.speeds[:] = written[:4]
+        self._apply(float(written[4]))
         self._holding = bool(written[5])
         self._model.eq_data[self._lock, 0] = written[6:]
         mujoco.mj_setState(self._model, self._data, physics, _STATE)
-        x_speed, y_speed, *_ = self._qvel.tolist()
-        self._surroundings.update(self._pose.tolist(), speed=math.hypot(x_speed, y_speed))
+        self._surroundings.update(self._movement.speed())
         mujoco.mj_forward(self._model, self._data)
 
     def footprint(self) -> Float[np.ndarray, "4 2"]:
@@ -198,20 +187,20 @@ class Car:
         state = self.state()
         return world_from_vehicle(np.array(points), x=state.x, y=state.y, yaw=state.yaw)
 
-    def _apply(self, tyre_speeds: list[float], brake: float) -> None:
+    def _apply(self, brake: float) -> None:
         # Coulomb friction in the spin joints is solved together with the contacts: it holds at standstill and never
         # drives the wheel backwards, which a velocity servo or a damper would.
         rolling = self.parameters.rolling_torque
         for dof, full in self._brake_torque:
             self._friction[dof] = rolling + brake * full
-        self._tyres.schedule(tyre_speeds)
-        self._tyre_speeds, self._brake_applied = tyre_speeds, brake
+        self._tyres.schedule()
+        self._brake_applied = brake
 
-    def _hold(self, motion: float, brake: float) -> None:
+    def _hold(self, brake: float) -> None:
         """Lock the wheels of a stopped car while its brake can carry it, and free them when it cannot."""
-        if not self._holding and motion >= STANDSTILL_SPEED:
+        if not self._holding and self._movement.size >= STANDSTILL_SPEED:
             return
-        strong_enough = brake * self.parameters.brake_torque > self._torque_to_hold()
+        strong_enough = brake * self.parameters.brake_torque > self._movement.torque_to_hold
         if self._holding and not strong_enough:
             self._holding = False
             self._data.eq_active[self._lock] = 0
@@ -219,17 +208,6 @@ class Car:
             self._holding = True
             self._model.eq_data[self._lock, 0] = self._data.qpos[self._spin_qpos]
             self._data.eq_active[self._lock] = 1
-
-    def _torque_to_hold(self) -> float:
-        """Wheel torque that engine and gravity, with a reserve, bring against the brake [N m]."""
-        throttle = float(self._data.act[self._throttle_act])
-        forward = self._world_from_car()[:, 0]
-        downhill = abs(float(forward @ self._model.opt.gravity))
-        return (
-            throttle * self.parameters.drive_torque
-            + self.parameters.mass * downhill * self.parameters.wheel_radius
-            + HOLD_RESERVE
-        )
 
 
 def _numbers(array: np.ndarray) -> "memoryview[float]":

@@ -3,9 +3,8 @@
 import math
 from typing import NamedTuple
 
-from mjdrive.vehicle.parameters import VehicleParameters
+from mjdrive.vehicle.parameters import AIR_DENSITY, VehicleParameters
 
-AIR_DENSITY = 1.2  # [kg/m3], as in `car`
 NUM_WHEELS = 4
 
 

@@ -9,6 +9,8 @@ import numpy as np
 
 from mjdrive.vehicle.assembly import WHEELS, car_path
 
+AIR_DENSITY = 1.2  # that the drag of every car is reckoned with [kg/m3]
+
 _SLEW = 1  # where a `pid` actuator keeps slewmax in its dynprm
 
 

@@ -8,12 +8,16 @@ contact a tyre with cornering stiffness C, saturated by the friction circle, tha
 R_n stays far above A: then the normal row is the tyre's spring, and sliding does not make the contact hover.
 """
 
-from typing import NamedTuple
+import functools
+from collections.abc import Callable
 
+import casadi as ca
 import mujoco
 import numpy as np
+from jaxtyping import Float
 
 from mjdrive.vehicle.assembly import WHEELS
+from mjdrive.vehicle.bound import bind
 from mjdrive.vehicle.parameters import VehicleParameters
 
 MIN_SPEED = 1e-3  # of the tyre law [m/s]; below it the tyre sticks
@@ -25,75 +29,69 @@ OTHER_REGULARIZATION = 1.0  # R_n against kerbs, walls and poles [1/kg]
 OTHER_DAMPING = 100.0  # against the same [N s/m]
 
 
-class _Row(NamedTuple):
-    """The pair of one tyre with the road.
+class Tyres:
+    """Writes the tyre law into the four tyre-road pairs of a model.
 
     Attributes:
-        weight: Inverse weight of the wheel [1/kg].
-        solimp: Memory of the model.
-        solref: Memory of the model.
-        solref_friction: Memory of the model.
+        speeds: Larger of travel and rolling speed of each tyre, in the order of `WHEELS`, shape (4,) [m/s]; to be
+            written before `schedule`.
     """
-
-    weight: float
-    solimp: "memoryview[float]"
-    solref: "memoryview[float]"
-    solref_friction: "memoryview[float]"
-
-
-class Tyres:
-    """Writes the tyre law into the four tyre-road pairs of a model."""
 
     def __init__(self, model: mujoco.MjModel, parameters: VehicleParameters) -> None:
         wheels = [model.body(f"wheel_{wheel}").id for wheel in WHEELS]
+        self.speeds = np.zeros(len(WHEELS))
         self._model = model
         self._option = model.opt
-        first, *_, last = pairs = [model.pair(f"tyre_{wheel}").id for wheel in WHEELS]
-        assert pairs == list(range(first, last + 1)), "the pairs of the tyres follow each other"
         self._inverse_weight = model.body_invweight0[wheels, 0].tolist()
-        # Memory of the model, written row by row: four rows are done before numpy has begun.
-        self._rows = [
-            _Row(
-                weight=weight,
-                solimp=memoryview(model.pair_solimp[pair]),
-                solref=memoryview(model.pair_solref[pair]),
-                solref_friction=memoryview(model.pair_solreffriction[pair]),
-            )
-            for pair, weight in zip(pairs, self._inverse_weight, strict=True)
-        ]
-        model.pair_solreffriction[first : last + 1, 0] = -1.0
         self._spring = parameters.tyre_vertical_stiffness
         self._damping = parameters.tyre_vertical_damping
-        self._slip_damping = STEP_DAMPING / model.opt.timestep
         cornering_stiffness = np.repeat(
             [parameters.cornering_stiffness_front, parameters.cornering_stiffness_rear], 2
         )
-        self._per_speed = (self._slip_damping / cornering_stiffness).tolist()
+        self._ratio = np.zeros(1)
+        self._write = self._law(STEP_DAMPING / model.opt.timestep, cornering_stiffness)
         self._soften_other_contacts([model.geom(f"tyre_{wheel}").id for wheel in WHEELS])
 
-    def schedule(self, speeds: list[float]) -> None:
-        """Set the friction impedance for the speed of each tyre.
+    def schedule(self) -> None:
+        """Set the friction impedance for the speed of each tyre."""
+        self._write()
+        self._option.impratio = self._ratio.item()
 
-        Args:
-            speeds: Larger of travel and rolling speed, in the order of `WHEELS` [m/s].
-        """
+    def _law(
+        self, slip_damping: float, cornering_stiffness: Float[np.ndarray, " 4"]
+    ) -> Callable[[], None]:
+        """What turns `speeds` into rows of the pairs and `_ratio`."""
+        model = self._model
+        first, *_, last = pairs = [model.pair(f"tyre_{wheel}").id for wheel in WHEELS]
+        assert pairs == list(range(first, last + 1)), "the pairs of the tyres follow each other"
+        rows = slice(first, last + 1)
+        speeds = ca.SX.sym("speed", len(WHEELS))
+        per_speed = (slip_damping / cornering_stiffness).tolist()
         friction = [
-            min(max(speed, MIN_SPEED), MAX_SPEED) * per_speed
-            for speed, per_speed in zip(speeds, self._per_speed, strict=True)
+            ca.fmin(ca.fmax(speed, MIN_SPEED), MAX_SPEED) * factor
+            for speed, factor in zip(ca.vertsplit(speeds), per_speed, strict=True)
         ]
-        ratio = max(IMPEDANCE_RATIO, MIN_NORMAL_REGULARIZATION / min(friction))
-        self._option.impratio = ratio
-        spring, damping, slip_damping = -self._spring, -self._damping, -self._slip_damping
-        for (weight, solimp, solref, solref_friction), softness in zip(
-            self._rows, friction, strict=True
+        least = functools.reduce(ca.fmin, friction)
+        ratio = ca.fmax(IMPEDANCE_RATIO, MIN_NORMAL_REGULARIZATION / least)
+        solimp, solref, solref_friction = [], [], []
+        for softness, weight, row in zip(
+            friction, self._inverse_weight, model.pair_solimp[rows].tolist(), strict=True
         ):
             regularization = ratio * softness
             impedance = weight / (weight + regularization)
             scale = regularization * impedance
-            solimp[0] = solimp[1] = impedance
-            solref[0] = spring * scale
-            solref[1] = damping * scale
-            solref_friction[1] = slip_damping * impedance
+            solimp += [impedance, impedance, *row[2:]]
+            solref += [-self._spring * scale, -self._damping * scale]
+            solref_friction += [-1.0, -slip_damping * impedance]
+        return bind(
+            [(speeds, self.speeds)],
+            [
+                (ca.vertcat(*solimp), model.pair_solimp[rows]),
+                (ca.vertcat(*solref), model.pair_solref[rows]),
+                (ca.vertcat(*solref_friction), model.pair_solreffriction[rows]),
+                (ratio, self._ratio),
+            ],
+        )
 
     def _soften_other_contacts(self, geoms: list[int]) -> None:
         """Give a tyre the same spring against kerbs and walls; a rigid one would kick three times as hard."""

@@ -116,8 +116,8 @@ def test_boxes_in_reach_are_those_of_the_whole_world_wherever_the_car_has_been()
         car.update()
         answers.append(looks(data))
         model.body_contype[0], model.body_conaffinity[0] = bits
-        fresh = Surroundings(model)  # has been nowhere
-        fresh.update(data.qpos.tolist(), speed=float(np.hypot(*data.qvel[:2])))
+        fresh = Surroundings(model, data)  # has been nowhere
+        fresh.update(float(np.hypot(*data.qvel[:2])))
         assert looks(data) == answers[-1]
         distance = np.abs(blocks - (x, y)).max(axis=1).min()
         assert answers[-1] or distance > 0.5  # not within a block
