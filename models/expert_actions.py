@@ -1,5 +1,7 @@
 """The expert's actions, kept inside a network so that its checkpoint can start a search from them and undo what they tilted."""
 
+from collections.abc import Mapping
+
 import torch
 from jaxtyping import Float
 from torch import Tensor, nn
@@ -9,6 +11,9 @@ from models.config import LearnerConfig, Start
 from models.interfaces import ACTION_SIZE
 from models.negatives import uniform_actions
 from models.samplers.draws import draw_ascending, pick
+
+STORED = ("experts.actions", "experts.density")
+"""What a learner calls its expert actions and their densities."""
 
 
 class ExpertActions(nn.Module):
@@ -82,3 +87,23 @@ class ExpertActions(nn.Module):
                 setattr(self, name, torch.empty_like(saved, device=getattr(self, name).device))
         self._surface_of = None
         super()._load_from_state_dict(state_dict, prefix, *args)
+
+
+def thinned(tensors: Mapping[str, Tensor], most: int) -> dict[str, Tensor]:
+    """Keep some expert actions of a learner that keeps them, evenly over the demonstrations.
+
+    Args:
+        tensors: Of a learner, by name.
+        most: Expert actions to keep at most [-].
+
+    Returns:
+        The same with fewer expert actions, each with the density that it had among all.
+    """
+    counts = [len(tensors[name]) for name in STORED if name in tensors]
+    if not counts or counts[0] <= most:
+        return dict(tensors)
+    kept = torch.arange(most) * counts[0] // most
+    return {
+        name: values[kept.to(values.device)] if name in STORED else values
+        for name, values in tensors.items()
+    }

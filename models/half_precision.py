@@ -6,6 +6,7 @@ import torch
 from jaxtyping import Float, UInt8
 from torch import Tensor
 
+from models import expert_actions
 from models.interfaces import Learner
 from models.samplers.grid import action_grid
 from models.threads import one_thread
@@ -13,7 +14,7 @@ from models.threads import one_thread
 POINTS = 65
 """Points along each action component at which distributions are compared; two of them lie 0.03 apart."""
 
-KEPT = ("experts.density",)
+KEPT = (expert_actions.STORED[1],)
 """Tensors that stay float32: rare actions have densities that float16 would make zero, and a search starts by their inverse."""
 
 

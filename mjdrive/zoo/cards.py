@@ -21,6 +21,8 @@ class Weights:
         largest_variation: Largest total variation between what both would do at one observation [-].
         mean_variation: Mean of it over the observations [-].
         observations: Observations that both were asked at [-].
+        expert_actions: Expert actions that are kept for searches to start from, evenly over the demonstrations; 0 if it
+            never searches, or if the card is from before they were counted [-].
     """
 
     number_format: str
@@ -29,6 +31,7 @@ class Weights:
     largest_variation: float
     mean_variation: float
     observations: int
+    expert_actions: int = 0
 
 
 @dataclass(frozen=True, slots=True)

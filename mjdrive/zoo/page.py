@@ -98,6 +98,14 @@ def _training(training: Training) -> Iterator[str]:
 def _facts(card: ModelCard) -> dict[str, str]:
     """Digests, sizes and versions."""
     weights, source = card.weights, card.source
+    kept = weights.expert_actions
+    starts = (
+        {}
+        if not kept
+        else {
+            "expert actions kept": f"{kept:,}; the search of the paper (`--preset paper`) starts from them, where that of training started from all"
+        }
+    )
     return {
         "demonstrations": f"{source.num_demonstrations:,} pairs in {source.town}, manifest `{source.manifest_sha256[:16]}`",
         "cars of the demonstrations": ", ".join(sorted(set(source.cars.values()))),
@@ -111,6 +119,7 @@ def _facts(card: ModelCard) -> dict[str, str]:
             if weights.number_format != "float32"
             else "none"
         ),
+        **starts,
     }
 
 

@@ -27,6 +27,7 @@ from mjdrive.zoo.reference import make_reference
 from mjdrive.zoo.training_command import training_command
 from models import checkpoint
 from models.errors import ModelsError
+from models.expert_actions import STORED, thinned
 from models.half_precision import halved, variations, widened
 from models.interfaces import Batch, Learner
 from models.learners import build_learner
@@ -34,6 +35,9 @@ from models.run_folder import read_history
 
 LOSSLESS_ENOUGH = 0.01
 """Largest total variation that rounding may cause [-]; bfloat16, in which energies are often scored, causes more."""
+
+MOST_EXPERT_ACTIONS = 2**16
+"""That are kept of a policy which can start a search from them; four times as many as the paper's starts from [-]."""
 
 LOOKED_AT = 600
 """Steps of the expert's walk that is looked at [-]."""
@@ -182,15 +186,14 @@ def _read(run: Path) -> tuple[Learner, Training]:
 def _write_weights(run: Path, learner: Learner, entry: Path, simulation: Simulation) -> Weights:
     """Write all that acts, with rounded weights if that changes little."""
     state = checkpoint.load_state(run)
-    trained = learner.state_dict()
-    halves = halved(trained)
+    kept = thinned(learner.state_dict(), MOST_EXPERT_ACTIONS)
+    halves = halved(kept)
     moments = _moments(simulation)
     changes = torch.ones(1) if halves is None else _changes(learner, halves, moments)
     is_enough = halves is not None and float(changes.max()) <= LOSSLESS_ENOUGH
     checkpoint.save(entry, learner, state)
-    if is_enough:
-        assert halves is not None, "what is enough is there"
-        checkpoint.write_tensors(entry / checkpoint.MODEL, halves, epoch=state.epoch)
+    written = halves if is_enough and halves is not None else kept
+    checkpoint.write_tensors(entry / checkpoint.MODEL, written, epoch=state.epoch)
     shutil.copyfile(run / runs.SOURCE, entry / runs.SOURCE)
     return Weights(
         number_format="float16" if is_enough else "float32",
@@ -199,6 +202,7 @@ def _write_weights(run: Path, learner: Learner, entry: Path, simulation: Simulat
         largest_variation=round(float(changes.max()), 6) if is_enough else 0.0,
         mean_variation=round(float(changes.mean()), 6) if is_enough else 0.0,
         observations=len(moments.state),
+        expert_actions=len(kept.get(STORED[0], ())),
     )
 
 

@@ -1,7 +1,7 @@
 import pytest
 import torch
 
-from models.expert_actions import ExpertActions
+from models.expert_actions import ExpertActions, thinned
 
 
 @pytest.fixture
@@ -31,3 +31,22 @@ def test_an_empty_one_loads_as_many_actions_as_were_saved(experts):
     fresh.load_state_dict(experts.state_dict())
     assert torch.equal(fresh.actions, experts.actions)
     assert torch.equal(fresh.density, experts.density)
+
+
+def test_fewer_actions_are_evenly_over_the_demonstrations_and_keep_their_density():
+    tensors = {
+        "experts.actions": torch.arange(20.0).reshape(10, 2),
+        "experts.density": torch.arange(10.0),
+        "encoder.weight": torch.ones(12),
+    }
+    few = thinned(tensors, 4)
+    assert few["experts.density"].tolist() == [0, 2, 5, 7]
+    assert few["experts.actions"][:, 0].tolist() == [0, 4, 10, 14]
+    assert few["encoder.weight"] is tensors["encoder.weight"]
+    for most in (10, 11):
+        assert torch.equal(thinned(tensors, most)["experts.density"], tensors["experts.density"])
+
+
+def test_what_keeps_no_actions_stays_as_it_is():
+    tensors = {"encoder.weight": torch.ones(12)}
+    assert thinned(tensors, 4) == tensors
