@@ -48,6 +48,11 @@ STUDIES = Path("studies")
     "--no-ablations", "without_ablations", is_flag=True, help="Compare the methods alone."
 )
 @click.option(
+    "--arms",
+    metavar="NAME,NAME",
+    help="Ways to act to compare, as da-ibc-committed,bc-beta-mode; methods without any are left out. [default: all of the preset]",
+)
+@click.option(
     "--data",
     multiple=True,
     metavar="DIR|NAME=DIR",
@@ -82,6 +87,7 @@ def study(
     steps: int | None,
     assignments: tuple[str, ...],
     without_ablations: bool,
+    arms: str | None,
     data: tuple[str, ...],
     runs: Path | None,
     jobs: int,
@@ -107,6 +113,7 @@ def study(
         steps=steps,
         assignments=assignments,
         ablations=not without_ablations,
+        arms=None if arms is None else _listed(arms),
     )
     folder = out or report.new_folder(STUDIES, datetime.datetime.now())
     work = Study(

@@ -22,6 +22,7 @@ def chosen(
     steps: int | None = None,
     assignments: Iterable[str] = (),
     ablations: bool = True,
+    arms: Sequence[str] | None = None,
 ) -> StudyConfig:
     """Change a preset; what is None stays as it is there.
 
@@ -34,14 +35,17 @@ def chosen(
         assignments: Other changes, each as "long_steps=0" for the study, "optimiser.epochs=5" for every learner or
             "da-ibc:optimiser.epochs=5" for those of a method. With "seeds=[4,5]" it is as with `seeds`.
         ablations: Whether the ablations of the preset are kept.
+        arms: Names of the ways to act that are kept; what acts in none of them is not trained.
 
     Raises:
         ConfigError: If a value is out of its range.
-        UnknownNameError: If there is no such preset, method or setting.
+        UnknownNameError: If there is no such preset, method, arm or setting.
     """
     study = presets.preset(preset, methods=methods)
     if not ablations:
         study = presets.without_ablations(study)
+    if arms is not None:
+        study = presets.with_arms(study, arms)
     numbers = {"episodes": episodes, "steps": steps, "seeds": seeds}
     values: dict[str, object] = {name: it for name, it in numbers.items() if it is not None}
     for assignment in assignments:

@@ -63,6 +63,15 @@ def test_undisturbed_demonstrations_are_a_data_set_of_their_own() -> None:
     ]
 
 
+def test_what_acts_in_none_of_the_ways_that_are_kept_is_not_trained() -> None:
+    study = chosen("standard", arms=["da-ibc-committed", "bc-beta-sample"])
+    assert [it.name for it in study.arms] == ["bc-beta-sample", "da-ibc-committed"]
+    assert [it.name for it in study.variants] == ["bc-beta", "da-ibc"]
+    assert [it.name for it in study.demonstrations] == ["demonstrations"]
+    with pytest.raises(UnknownNameError, match=r"arm of this study.*da-ibc-kept"):
+        chosen("standard", arms=["da-ibc-kept"])
+
+
 def test_ablations_of_acting_need_no_training_and_fewer_seeds() -> None:
     study = chosen("standard")
     seeds = [it.agent.seed for it in arm_agents(study) if it.arm.name == "da-ibc-cold"]
