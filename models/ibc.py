@@ -27,9 +27,11 @@ class IbcLearner(Learner):
 
     Attributes:
         on_candidates: Shown the candidates of each iteration where the sampler is DFO, to look at the search.
+        on_energies: Shown the energies of all points where the sampler is the grid, to look at the choice.
     """
 
     on_candidates: Callable[[Tensor], None] | None = None
+    on_energies: Callable[[Tensor], None] | None = None
 
     def __init__(self, config: LearnerConfig) -> None:
         super().__init__()
@@ -152,7 +154,11 @@ class IbcLearner(Learner):
             )
             if settings.kind == "grid":
                 return grid.choose(
-                    energy, settings.grid, generator=generator, commitment=commitment
+                    energy,
+                    settings.grid,
+                    generator=generator,
+                    commitment=commitment,
+                    on_energies=self.on_energies,
                 )
             if settings.kind == "dfo":
                 search = settings.dfo

@@ -53,5 +53,5 @@ def draw(report: Report, path: Path) -> None:
 
 def _label(row: Comparison) -> str:
     if row.reads is Reads.COST:
-        return f"{row.name}\ncost over the physics, at most"
+        return f"{row.name}\ntimes as long as without, at most"
     return f"{row.name}\n{row.reads.value}, at least"

@@ -6,6 +6,7 @@ from typing import NamedTuple, Protocol, runtime_checkable
 import numpy as np
 import torch
 from jaxtyping import Float, Int8, UInt8
+from torch.nn import functional as F  # noqa: N812
 
 from mjdrive.config import CollectConfig, PidConfig
 from mjdrive.datatypes import Action, Observation
@@ -23,7 +24,7 @@ from mjdrive.zoo import entries
 from models.ibc import IbcLearner
 
 POINTS = 64
-"""Grid points of the landscape along each action component [-]."""
+"""Grid points of the landscape along each action component, at most [-]."""
 
 DEPTH = 12.0
 """Log densities this far below the highest look alike [nats]."""
@@ -136,8 +137,11 @@ class PilotMind:
         self.name = pilot.name
         self._pilot = pilot
         self._searched: list[torch.Tensor] = []
+        self._scored: list[torch.Tensor] = []
+        self._seen: Observation | None = None
         if isinstance(pilot.learner, IbcLearner):
             pilot.learner.on_candidates = self._searched.append
+            pilot.learner.on_energies = self._scored.append
 
     def begin(self, simulation: Simulation, seed: int) -> None:
         """Start where `mjdrive drive` does."""
@@ -149,6 +153,8 @@ class PilotMind:
         """Ask the network."""
         del simulation
         self._searched.clear()
+        self._scored.clear()
+        self._seen = observation
         return self._pilot.act(observation)
 
     def take_over(self, simulation: Simulation) -> None:
@@ -156,7 +162,10 @@ class PilotMind:
 
     @torch.inference_mode()
     def density(self, observation: Observation) -> Density:
-        """Ask the network about a grid of actions."""
+        """What it chose from, if that was a grid; else ask the network about one."""
+        if self._scored and observation is self._seen:
+            (energies,) = self._scored
+            return shade(-_thinned(energies[0]).double().cpu().numpy())
         device = self._pilot.device
         bev = torch.tensor(observation.bev, device=device)[None]
         state = torch.tensor(observation.state, device=device)[None]
@@ -171,6 +180,13 @@ class PilotMind:
         kept = [it[0, :: max(1, it.shape[1] // MOST_CANDIDATES)] for it in self._searched]
         scaled = (127.0 * torch.stack(kept)).round().clamp(-127, 127)
         return scaled[:, :MOST_CANDIDATES].to(torch.int8).cpu().numpy()
+
+
+def _thinned(energies: Float[torch.Tensor, " N"]) -> Float[torch.Tensor, "A S"]:
+    """Energies of a square grid, the lowest of its points around each one that is shown."""
+    side = round(len(energies) ** 0.5)
+    square = energies.view(1, side, side)
+    return -F.adaptive_max_pool2d(-square, min(side, POINTS))[0]
 
 
 def shade(log_density: Float[np.ndarray, "A S"]) -> Density:

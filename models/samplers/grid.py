@@ -1,5 +1,7 @@
 """Exact choice on a grid: two action components are few enough to score every one."""
 
+from collections.abc import Callable
+
 import torch
 from jaxtyping import Float
 from torch import Tensor
@@ -30,6 +32,7 @@ def choose(
     *,
     generator: torch.Generator,
     commitment: Commitment | None = None,
+    on_energies: Callable[[Tensor], None] | None = None,
 ) -> Float[Tensor, "B 2"]:
     """Choose a grid point for each observation: the lowest, or one drawn from exp(-E / temperature).
 
@@ -38,12 +41,15 @@ def choose(
         config: Grid, choice and temperature.
         generator: Source of chance; the grid lies on its device.
         commitment: What lasts from decision to decision; None draws among all points.
+        on_energies: Shown the energies of all points, shape (B, N) [nats], to look at the choice.
 
     Returns:
         Acceleration and steering [-].
     """
     actions = action_grid(config.points, device=generator.device)
     energies = energy(actions[None])  # (B, N)
+    if on_energies is not None:
+        on_energies(energies)
     if config.choice == "argmin":
         return actions[energies.argmin(dim=1)]
     log_weights = -energies / config.temperature

@@ -4,12 +4,17 @@ import pickle
 import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
+import torch
 
+from mjdrive.datatypes import Observation
 from mjdrive.errors import RunError
-from mjdrive.web.policies import load_mind, policy_names
+from mjdrive.simulation.simulation import Simulation
+from mjdrive.web.policies import POINTS, PilotMind, load_mind, policy_names, shade
 from mjdrive.zoo import entries
 from models import checkpoint
+from models.samplers.grid import action_grid
 
 
 def test_runs_that_links_lead_out_to_are_not_listed(tmp_path: Path) -> None:
@@ -36,3 +41,23 @@ def test_weights_are_never_a_pickle(tmp_path: Path) -> None:
     assert not (tmp_path / "sprung").exists()
     pickle.loads((run / checkpoint.MODEL).read_bytes())
     assert (tmp_path / "sprung").exists()  # it would have
+
+
+def test_the_landscape_is_that_which_was_chosen_from(simulation: Simulation) -> None:
+    mind = load_mind(entries.full_names()[0], Path())
+    assert isinstance(mind, PilotMind)
+    mind.begin(simulation, 0)
+    learner = mind._pilot.learner
+    side = learner.config.sampler.grid.points
+    for _ in range(3):
+        seen = simulation.observe()
+        simulation.step(mind.decide(simulation, seen))
+        found = mind.density(seen)
+        bev, state = torch.tensor(seen.bev)[None], torch.tensor(seen.state)[None]
+        told = learner.log_density(bev, state, action_grid(side)[None]).view(1, side, side)
+        expected = shade(torch.nn.functional.adaptive_max_pool2d(told, POINTS)[0].double().numpy())
+        # Energies to choose from may be in bfloat16.
+        assert np.abs(found.pixels.astype(float) - expected.pixels).mean() <= 3
+        assert (found.low, found.high) == pytest.approx((expected.low, expected.high), abs=0.5)
+        asked = mind.density(Observation(bev=seen.bev, state=seen.state))  # of another moment
+        assert asked.pixels.shape == found.pixels.shape
