@@ -21,7 +21,7 @@ class CommitmentConfig:
 
     hold: int = 0
     split: float = 0.15
-    release: float = 0.05
+    release: float = 0.001
 
     def __post_init__(self) -> None:
         require_not_negative(self, "hold")

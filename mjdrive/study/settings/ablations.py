@@ -74,6 +74,13 @@ ACTING_ABLATIONS = (
         "commitment.hold=10",
     ),
     _arm(
+        "hasty",
+        "da-ibc",
+        "turns given up below 5 %",
+        "a turn is given up where it has less than 5 % of the distribution, not 0.1 %",
+        "commitment.release=0.05",
+    ),
+    _arm(
         "cold",
         "da-ibc",
         "half temperature",
