@@ -73,7 +73,10 @@ def _evaluation(evaluation: Evaluation, card: ModelCard) -> Iterator[str]:
     yield "```"
     if evaluation.weights_sha256 != card.weights.sha256:
         yield ""
-        yield "These drives were made by the weights as training left them, in float32, before they were rounded: the command above makes others."
+        if card.weights.number_format == "float32":
+            yield "These drives were made with all expert actions of the training; a policy that does not search makes the same ones without."
+        else:
+            yield "These drives were made by the weights as training left them, in float32, before they were rounded: the command above makes others."
 
 
 def _training(training: Training) -> Iterator[str]:
