@@ -28,6 +28,9 @@ MARGIN = 9.0
 ACROSS, COLUMN = 4, 2.3
 """Panels beside each other [-], and width of each [inch]."""
 
+_LEGEND_COLUMNS = {1: 1, 2: 2}
+"""Of the five entries, by the number of panels beside each other, so that none is cut off [-]."""
+
 
 def draw_fans(fans: Sequence[tuple[str, FanRecord]], town: Town, path: Path) -> None:
     """Draw one panel a policy and moment.
@@ -40,7 +43,12 @@ def draw_fans(fans: Sequence[tuple[str, FanRecord]], town: Town, path: Path) -> 
     with matplotlib.style.context(["default", STYLE]):
         columns = min(ACROSS, len(fans))
         rows = math.ceil(len(fans) / columns)
-        figure = Figure(figsize=(COLUMN * columns + 0.2, 2.75 * rows + 0.4), layout="constrained")
+        legend_columns = _LEGEND_COLUMNS.get(columns, 5)
+        size = (
+            COLUMN * columns + (0.2 if columns > 1 else 0.9),
+            2.75 * rows + 0.5 + 0.16 * math.ceil(5 / legend_columns),
+        )
+        figure = Figure(figsize=size, layout="constrained")
         grid = figure.subplots(rows, columns, squeeze=False)
         for axes in grid.flat:
             axes.set_axis_off()
@@ -55,7 +63,7 @@ def draw_fans(fans: Sequence[tuple[str, FanRecord]], town: Town, path: Path) -> 
             Line2D([], [], color=colour, lw=2, label=text) for colour, text in (LOST, UNSAFE)
         ]
         figure.legend(
-            handles=handles, loc="outside lower center", ncols=3 if columns < 3 else 5,
+            handles=handles, loc="outside lower center", ncols=legend_columns,
             frameon=False, fontsize=8,
         )  # fmt: skip
         save(figure, path)
