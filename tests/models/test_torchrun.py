@@ -159,7 +159,7 @@ def gradients_of_parts(config, demonstrations, rank, size):
         device=torch.device("cpu"),
         team=Team(rank, size),
     )
-    for minibatch in run._minibatches(run._order(0), 0, is_training=True):
+    for minibatch in run._minibatches(run.order.of(0), 0, is_training=True):
         loss = run._differentiate(minibatch)
         yield [torch.tensor(loss), *(gradient.clone() for gradient in run.state.gradients())]
 

@@ -137,7 +137,7 @@ def test_push_after_the_impact_is_found_out(ground, monkeypatch):
         update(car)
         if 0.6 < car._data.time < 0.9:
             velocity = car._data.qvel[:2]
-            car._data.xfrc_applied[car._body, :2] = 5000.0 * velocity / np.hypot(*velocity)
+            car._data.body("car").xfrc_applied[:2] = 5000.0 * velocity / np.hypot(*velocity)
 
     (pole,) = ground.obstacles("pole", 1)
     honest = ground.ram(pole)
