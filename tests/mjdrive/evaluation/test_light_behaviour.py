@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from mjdrive import geometry
 from mjdrive.datatypes import Episode, Lane, Route, Signal, Town, TrafficLight
 from mjdrive.evaluation.light_behaviour import LightPassage, is_rash, light_passages
+from mjdrive.town.route_line import lay
 
 LINE = 100.0
 NOSE = 3.0
@@ -31,15 +31,7 @@ TOWN = Town("street", LANES, {"light": LIGHT}, np.array([0.0, -2.0, 200.0, 2.0])
 
 def route_from(x: float) -> Route:
     """The street from a place on."""
-    points = geometry.resample(np.array([[x, 0.0], [200.0, 0.0]]), 1.0)
-    return Route(
-        lanes=("approach", "rest"),
-        points=points,
-        station=geometry.stations(points),
-        yaw=geometry.headings(points),
-        curvature=geometry.curvatures(points),
-        lane_index=(points[:, 0] >= LINE).astype(int),
-    )
+    return lay(TOWN, ("approach", "rest"), start=x, end=200.0 - LINE)
 
 
 def drive(x: np.ndarray, *, start: float) -> tuple[LightPassage, ...]:

@@ -1,22 +1,14 @@
 import numpy as np
 import pytest
 
-from mjdrive import geometry
 from mjdrive.config import PidConfig
-from mjdrive.datatypes import Lane, Route, Situation, Town, VehicleState
+from mjdrive.datatypes import Lane, Situation, Town, VehicleState
 from mjdrive.expert.pid import Pid, PidExpert
+from mjdrive.town.route_line import lay
 
 LANE = Lane("lane", np.array([[0.0, 0.0], [100.0, 0.0]]), 4.0, (), None, None)
 TOWN = Town("plain", {"lane": LANE}, {}, np.array([0.0, -2.0, 100.0, 2.0]), "")
-POINTS = geometry.resample(LANE.centerline, 1.0)
-ROUTE = Route(
-    lanes=("lane",),
-    points=POINTS,
-    station=geometry.stations(POINTS),
-    yaw=geometry.headings(POINTS),
-    curvature=geometry.curvatures(POINTS),
-    lane_index=np.zeros(len(POINTS), int),
-)
+ROUTE = lay(TOWN, ("lane",), start=0.0, end=100.0)
 
 
 def situation(

@@ -3,19 +3,13 @@
 import numpy as np
 import pytest
 
-from mjdrive import geometry
-from mjdrive.datatypes import Action, Route, Situation, VehicleState
+from mjdrive.datatypes import Action, Lane, Situation, Town, VehicleState
 from mjdrive.expert.pushes import PUSHED, RECOVERED_HEADING, RECOVERED_OFFSET, PushWatch
+from mjdrive.town.route_line import lay
 
-POINTS = geometry.resample(np.array([[0.0, 0.0], [100.0, 0.0]]), 1.0)
-ROUTE = Route(
-    lanes=("lane",),
-    points=POINTS,
-    station=geometry.stations(POINTS),
-    yaw=geometry.headings(POINTS),
-    curvature=geometry.curvatures(POINTS),
-    lane_index=np.zeros(len(POINTS), int),
-)
+LANE = Lane("lane", np.array([[0.0, 0.0], [100.0, 0.0]]), 4.0, (), None, None)
+TOWN = Town("plain", {"lane": LANE}, {}, np.array([0.0, -2.0, 100.0, 2.0]), "")
+ROUTE = lay(TOWN, ("lane",), start=0.0, end=100.0)
 FULL_LOCK = 0.6
 LAST = Action(acceleration=0.0, steering=0.5)
 
