@@ -157,7 +157,8 @@ class Simulation:
         for _ in range(round(config.control_interval / config.car_update_interval)):
             self.car.update()
             mujoco.mj_step(self.model, self.data, num_substeps)
-            hits |= self._contacts.hits()
+            if not self.car.is_clear:
+                hits |= self._contacts.hits()
             if on_motion is not None:
                 on_motion()
         if np.count_nonzero(self._warnings):

@@ -129,6 +129,11 @@ class Car:
             steering_angle=qpos[self._rack_qpos],
         )
 
+    @property
+    def is_clear(self) -> bool:
+        """Whether nothing stands so near that, until the next update, anything but the tyres touches anything but the road."""
+        return not self._surroundings.are_near
+
     def save(self) -> Float[np.ndarray, " S"]:
         """Take all that the future of the simulation depends on from the next command on.
 

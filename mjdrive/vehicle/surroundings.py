@@ -28,9 +28,13 @@ class Surroundings:
     Args:
         model: Scene of `car_on_road`. If anything but the car can move in it, contacts stay on.
         data: Its state, whose memory is read.
+
+    Attributes:
+        are_near: Whether contacts are on; while they are off, the car touches nothing but the road, with its tyres.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        self.are_near = True
         still = mujoco.MjData(model)
         mujoco.mj_kinematics(model, still)
         rotation = still.geom_xmat.reshape(-1, 3, 3)
@@ -62,10 +66,11 @@ class Surroundings:
             speed: Of the car in the plane [m/s].
         """
         self._speed[0] = speed
-        bits = self._bits if not self._is_alone or self._is_near() else _NOTHING
+        self.are_near = not self._is_alone or self._meet_the_car()
+        bits = self._bits if self.are_near else _NOTHING
         self._contype[WORLD], self._conaffinity[WORLD] = bits
 
-    def _is_near(self) -> bool:
+    def _meet_the_car(self) -> bool:
         """Whether the car, or where it may be soon, meets the box around anything that stands."""
         self._reach()
         upright, left, right, bottom, top = self._reached.tolist()

@@ -97,6 +97,20 @@ def test_full_throttle_off_the_street_is_noticed(driven):
     assert all(np.isfinite(driven.data.qpos))
 
 
+def test_nothing_is_hit_where_the_car_says_that_it_is_clear(driven):
+    clear = []
+
+    def look() -> None:
+        clear.append(driven.car.is_clear)
+        assert not (clear[-1] and driven._contacts.hits())
+
+    found = []
+    for _ in range(150):
+        found += driven.step(Action(acceleration=0.7, steering=-0.3), on_motion=look)
+    assert {True, False} == set(clear)
+    assert InfractionKind.KERB in {infraction.kind for infraction in found}
+
+
 def test_no_warning_and_no_log_file_after_a_crash(driven, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for _ in range(100):
