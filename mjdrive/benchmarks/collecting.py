@@ -2,10 +2,11 @@
 
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 
-from mjdrive.benchmarks.comparison import Comparison, Plan, Reads
-from mjdrive.benchmarks.timing import timed
+from mjdrive.benchmarks.comparison import Comparison, Figure, Plan, Reads, Row
+from mjdrive.benchmarks.timing import paired
 from mjdrive.bev.layers import Layer
 from mjdrive.config import BevConfig, SimulationConfig
 from mjdrive.episodes import dataset
@@ -19,16 +20,20 @@ SMALLER_THAN_FRAMES = 500.0
 QUICK_ROUTE = ("--routes", "0")
 
 
-def measure(plan: Plan) -> tuple[Comparison, ...]:
+def measure(plan: Plan) -> tuple[Row, ...]:
     """Collect again and again into new folders, start of Python and pictures included.
 
     Args:
         plan: How much to measure.
     """
-    folders = [plan.workspace / f"collected-{number}" for number in range(plan.rounds(3))]
     routes = QUICK_ROUTE if plan.quick else ()
-    seconds = tuple(timed(lambda folder=folder: _collect(folder, routes)) for folder in folders)  # type: ignore[misc]
-    manifest, _ = dataset.read_dataset(folders[0])
+    folders = {jobs: plan.workspace / f"collected-{jobs}" for jobs in (JOBS, 1)}
+    rounds = paired(
+        *(partial(_collect, folder, jobs, routes) for jobs, folder in folders.items()),
+        rounds=plan.rounds(3),
+        warm_up=0,
+    )
+    manifest, _ = dataset.read_dataset(folders[JOBS])
     num_steps = sum(entry.steps for entry in manifest.episodes)
     driven = num_steps * SimulationConfig().control_interval
     what = f"{len(manifest.episodes)} routes of {TOWN} as in the paper, {driven:,.0f} s of driving"
@@ -39,18 +44,25 @@ def measure(plan: Plan) -> tuple[Comparison, ...]:
             work=what,
             ours=f"mjdrive collect --jobs {JOBS}, from start to end",
             theirs="driving in real time",
-            our_rounds=seconds,
-            their_rounds=(driven,) * len(seconds),
+            our_rounds=rounds.ours,
+            their_rounds=(driven,) * len(rounds.ours),
             bar=FASTER_THAN_REAL_TIME,
             piece="data set",
             note=f"Wall time on {available_cores()} cores; both are busy.",
+        ),
+        Figure(
+            name="collecting: one process",
+            work=f"{what}: as long as {JOBS} processes take",
+            rounds=tuple(one / many for many, one in zip(rounds.ours, rounds.theirs, strict=True)),
+            unit="x",
+            note="In turns with the row above; what the start of each process costs is in it.",
         ),
         Comparison(
             name="data set on the disk",
             work=what,
             ours="states in a compressed file, views drawn again",
             theirs=f"its {num_steps:,} views of 5 x 192 x 192 as bytes",
-            our_rounds=(_size(folders[0]) / 1e6,),
+            our_rounds=(_size(folders[JOBS]) / 1e6,),
             their_rounds=(num_steps * frame / 1e6,),
             bar=SMALLER_THAN_FRAMES,
             reads=Reads.SMALLER,
@@ -60,10 +72,10 @@ def measure(plan: Plan) -> tuple[Comparison, ...]:
     )
 
 
-def _collect(folder: Path, routes: tuple[str, ...]) -> None:
+def _collect(folder: Path, jobs: int, routes: tuple[str, ...]) -> None:
     """Run the command; what it says is shown only if it fails."""
     command = [sys.executable, "-m", "mjdrive", "collect", "--town", TOWN, "--preset", "paper"]
-    command += ["--jobs", str(JOBS), "--out", str(folder), *routes]
+    command += ["--jobs", str(jobs), "--out", str(folder), "--overwrite", *routes]
     done = subprocess.run(command, check=False, capture_output=True, text=True)
     if done.returncode:
         raise WorkerError(

@@ -5,8 +5,8 @@ CAPTIONS = {
         "What is seen of the town",
         "Left: share of all ways through junctions (approach and exit) that were driven at least once, over the time of all "
         "drives of an agent, one after the other. Right: share of the directed lanes that were visited, over distance. Lines "
-        "are means over training seeds, as far as all of them drove; faint lines are single seeds. Who always turns the same "
-        "way levels off early, however well it drives.",
+        "are means over training seeds, as far as all of them drove; faint lines are single seeds, and one goes on where its "
+        "agent made the long drive. Who always turns the same way levels off early, however well it drives.",
     ),
     "turns": (
         "Turns beside the expert's",

@@ -24,7 +24,7 @@ BASELINE = "expert"
 
 
 def draw_recall(results: Sequence[ArmResult], looks: Mapping[str, Look], path: Path) -> None:
-    """Draw branch recall over time, and lanes visited over distance: mean over seeds, and each seed faintly.
+    """Draw branch recall over time, and lanes visited over distance: mean over seeds, and each seed faintly; then those that drove on.
 
     Args:
         results: Arms and references, at least one.
@@ -119,11 +119,18 @@ def _draw_curves(
         look = looks[arm]
         style = {"color": look.colour, "linestyle": look.line_style}
         # As far as all seeds were driven, so that a mean never rests on fewer of them.
-        x = np.linspace(0.0, min(curve.x[-1] for curve in curves), 400)
-        seeds = np.array([at(curve, x) for curve in curves])
-        if len(curves) > 1:
-            for row in seeds:
-                axes.plot(x, row, alpha=0.25, lw=0.8, **style)
-        axes.plot(x, seeds.mean(axis=0), lw=1.6, label=look.label, **style)
+        end = min(curve.x[-1] for curve in curves)
+        x = np.linspace(0.0, end, 400)
+        axes.plot(
+            x,
+            np.mean([at(curve, x) for curve in curves], axis=0),
+            lw=1.6,
+            label=look.label,
+            **style,
+        )
+        for curve in curves if len(curves) > 1 else ():
+            axes.plot(x, at(curve, x), alpha=0.25, lw=0.8, **style)
+            beyond = np.linspace(end, curve.x[-1], 400)  # where one seed drove on by itself
+            axes.plot(beyond, at(curve, beyond), alpha=0.7, lw=1.0, **style)
     axes.set(ylim=(0.0, 1.02), xlim=(0.0, None))
     axes.grid(color=GRID, linewidth=0.6)

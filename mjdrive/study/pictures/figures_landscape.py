@@ -16,6 +16,9 @@ from mjdrive.picture_style import STYLE, save
 COLUMN, ROW, EDGE = 2.15, 2.15, 0.62
 """Width of a situation, height of a landscape, and space around [inch]."""
 
+BESIDE = 0.4
+"""Modes that are nearer to each other along both components would write over each other [-]."""
+
 Panel = tuple[Float[np.ndarray, "A S"], Float[np.ndarray, "N 2"]]
 """Probabilities over the grid of actions, acceleration outermost, and actions drawn [-]."""
 
@@ -83,8 +86,15 @@ def draw_panel(axes: Axes, panel: Panel) -> AxesImage:
         interpolation="nearest",
     )
     axes.axvline(0.0, color="#6e7781", linewidth=0.8)
-    for mode in modes(probabilities):
-        _mark(axes, mode.steering, mode.acceleration, f"{100 * mode.mass:.0f} %")
+    found = modes(probabilities)
+    for mode in found:
+        is_lower = any(
+            abs(other.steering - mode.steering) < BESIDE
+            and 0.0 < other.acceleration - mode.acceleration < BESIDE
+            for other in found
+        )
+        text = f"{100 * mode.mass:.0f} %"
+        _mark(axes, mode.steering, mode.acceleration, text, is_below=is_lower)
     axes.plot(
         draws[:, 1], draws[:, 0], "o", color="white", mec="#1f2328", mew=0.5, ms=3.6, zorder=3
     )
@@ -94,10 +104,10 @@ def draw_panel(axes: Axes, panel: Panel) -> AxesImage:
     return image
 
 
-def _mark(axes: Axes, steering: float, acceleration: float, text: str) -> None:
-    """Ring a mode, and write its mass beside it, towards the middle of the panel."""
+def _mark(axes: Axes, steering: float, acceleration: float, text: str, *, is_below: bool) -> None:
+    """Ring a mode, and write its mass above it, or below where it is asked for or the panel ends."""
     axes.plot(steering, acceleration, "o", color="none", mec="#d1242f", mew=1.4, ms=9.0, zorder=4)
-    up = acceleration < 0.5
+    up = acceleration < 0.5 and not is_below
     axes.annotate(
         text,
         (steering, acceleration),
