@@ -51,11 +51,11 @@ def measure(plan: Plan) -> tuple[Row, ...]:
             note=f"Wall time on {available_cores()} cores; both are busy.",
         ),
         Figure(
-            name="collecting: one process",
-            work=f"{what}: as long as {JOBS} processes take",
+            name="collecting: gain of a second process",
+            work="wall time with --jobs 1 over that with --jobs 2",
             rounds=tuple(one / many for many, one in zip(rounds.ours, rounds.theirs, strict=True)),
             unit="x",
-            note="In turns with the row above; what the start of each process costs is in it.",
+            note="In turns with the row above; starts of Python, which both pay, are in it.",
         ),
         Comparison(
             name="data set on the disk",

@@ -68,6 +68,7 @@ def results(report: Report) -> str:
             f"Measured on {where.processor}, {where.num_cores} cores, {memory}, {where.system}, "
             f"load {where.load:.1f} at the start, in {sum(report.seconds.values()) / 60:.0f} minutes. {versions}.{look}",
             "",
+            *_surroundings(report),
             f"![Ratios against their bars]({PICTURE.as_posix()})",
             "",
             "| measured | ours | theirs | result | bar | holds |",
@@ -79,6 +80,13 @@ def results(report: Report) -> str:
             "",
         ]
     )
+
+
+def _surroundings(report: Report) -> list[str]:
+    """What networks find on the machine, and what other programs took of it."""
+    facts = ", ".join(f"{name} {value}" for name, value in report.machine.networks.items())
+    sentences = ([f"Networks: {facts}."] if facts else []) + [report.neighbours]
+    return [" ".join(filter(None, sentences)), ""] if any(sentences) else []
 
 
 def _row(it: Line) -> str:

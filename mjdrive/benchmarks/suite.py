@@ -2,8 +2,8 @@
 
 import importlib
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from mjdrive.benchmarks import machine
 from mjdrive.benchmarks.comparison import NotMeasured, Plan, Row
@@ -69,17 +69,33 @@ class Report:
         is_quick: Whether it was only a look.
         rows: Of each benchmark, by its name.
         seconds: What each benchmark took, by its name [s].
+        others: How many cores other programs kept busy meanwhile, by its name; -1 where it is not known [-].
     """
 
     machine: Machine
     is_quick: bool
     rows: dict[str, tuple[Row, ...]]
     seconds: dict[str, float]
+    others: dict[str, float] = field(default_factory=dict)
 
     @property
     def all_rows(self) -> tuple[Row, ...]:
         """The rows of all benchmarks in order."""
         return tuple(row for rows in self.rows.values() for row in rows)
+
+    @property
+    def neighbours(self) -> str:
+        """What other programs took of the machine, in a sentence; empty where it is not known."""
+        known = [name for name, cores in self.others.items() if cores >= 0.0]
+        if not known:
+            return ""
+        seconds = sum(self.seconds[name] for name in known)
+        mean = sum(self.others[name] * self.seconds[name] for name in known) / seconds
+        worst = max(known, key=self.others.__getitem__)
+        return (
+            f"Other programs kept {mean:.2f} of {self.machine.num_cores} cores busy meanwhile, "
+            f"{self.others[worst]:.2f} at the most (during '{worst}')."
+        )
 
 
 def choose(names: Sequence[str]) -> tuple[Benchmark, ...]:
@@ -99,6 +115,7 @@ def run(
     benchmarks: Sequence[Benchmark],
     plan: Plan,
     *,
+    networks: Mapping[str, str] | None = None,
     on_begin: Callable[[str], None] = lambda name: None,
     on_report: Callable[[Report], None] = lambda report: None,
 ) -> Report:
@@ -107,16 +124,18 @@ def run(
     Args:
         benchmarks: Which.
         plan: How much, and where things are.
+        networks: What networks find on this machine, for the report.
         on_begin: Told the name of each when it begins.
         on_report: Given all rows so far when one has ended, to be kept whatever comes next.
     """
-    where = machine.describe()
+    where = replace(machine.describe(), networks=dict(networks or {}))
     report = Report(where, plan.quick, {}, {})
     for benchmark in benchmarks:
         on_begin(benchmark.name)
-        begin = time.monotonic()
+        begin, neighbours = time.monotonic(), machine.Neighbours()
         rows = report.rows | {benchmark.name: benchmark.measure(plan)}
         seconds = report.seconds | {benchmark.name: time.monotonic() - begin}
-        report = Report(where, plan.quick, rows, seconds)
+        others = report.others | {benchmark.name: round(neighbours.cores(), 3)}
+        report = Report(where, plan.quick, rows, seconds, others)
         on_report(report)
     return report

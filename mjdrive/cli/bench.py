@@ -121,6 +121,7 @@ def _measured(
     from mjdrive.benchmarks.suite import run
     from mjdrive.cli.console import ended_by_sigterm, progress_bars
     from mjdrive.config import write_json
+    from models import hardware
 
     def keep(report: "Report") -> None:
         if out is not None:
@@ -142,6 +143,6 @@ def _measured(
             bars.update(task, description=f"{names[-1]}: {stage}")
 
         plan = Plan(Path(folder), quick=quick, rivals=rivals, on_stage=go_on)
-        report = run(benchmarks, plan, on_begin=begin, on_report=keep)
+        report = run(benchmarks, plan, networks=hardware.describe(), on_begin=begin, on_report=keep)
         bars.update(task, description="bench", completed=len(benchmarks))
     return report

@@ -47,6 +47,8 @@ def report_table(report: Report, files: list[Path]) -> None:
     for shown in lines:
         if shown.note:
             console.print(Text(f"{shown.name}: {shown.note}"), soft_wrap=True)
+    if report.neighbours:
+        console.print(Text(report.neighbours), soft_wrap=True)
     console.print(_verdict(report, lines))
     for path in files:
         console.print(Text(str(path)), soft_wrap=True)

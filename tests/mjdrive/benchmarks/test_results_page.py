@@ -1,3 +1,4 @@
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -38,6 +39,18 @@ def test_results_replace_what_is_between_the_marks_and_nothing_else(
     assert "- one | two: N." in once
     write_page(report, page)
     assert page.read_text() == once
+
+
+def test_page_tells_what_networks_found_and_what_others_took_of_the_machine(
+    report: Report, tmp_path: Path
+) -> None:
+    page = tmp_path / "PAGE.md"
+    page.write_text(f"{BEGIN}\n{END}\n")
+    where = replace(report.machine, networks={"threads": "2"}, num_cores=4)
+    write_page(replace(report, machine=where, others={"a": 0.25}), page)
+    assert "Networks: threads 2. Other programs kept 0.25 of 4 cores busy" in page.read_text()
+    write_page(replace(report, others={"a": -1.0}), page)
+    assert "Other programs" not in page.read_text()
 
 
 def test_picture_is_drawn_and_the_same_for_the_same_results(report: Report, tmp_path: Path) -> None:
