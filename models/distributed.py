@@ -8,6 +8,7 @@ import datetime
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Literal
 
 import torch
 from torch import Tensor, distributed
@@ -113,6 +114,11 @@ def team_of(environment: Mapping[str, str]) -> Team:
     return Team(rank, size, local_rank)
 
 
+def backend(device: torch.device) -> Literal["nccl", "gloo"]:
+    """What carries the messages of processes that compute on such a device."""
+    return "nccl" if device.type == "cuda" else "gloo"
+
+
 @contextmanager
 def joined(team: Team, device: torch.device) -> Iterator[None]:
     """Within it, the processes of a team can talk to each other.
@@ -133,7 +139,7 @@ def joined(team: Team, device: torch.device) -> Iterator[None]:
         meeting = rendezvous("env://", team.rank, team.size, timeout=JOINING)
         store, _, _ = next(meeting)
         distributed.init_process_group(
-            "nccl" if device.type == "cuda" else "gloo",
+            backend(device),
             store=store,
             rank=team.rank,
             world_size=team.size,

@@ -3,6 +3,7 @@
 import importlib.metadata
 import importlib.util
 import json
+import os
 import shutil
 
 import rich_click as click
@@ -44,19 +45,21 @@ def machine_facts() -> Facts:
         "processor": f"{here.processor}, {here.num_cores} cores",
         "memory": f"{here.memory_gb:g} GB" if here.memory_gb > 0 else "unknown",
         "system": here.system,
+        "compiler": "none needed",
         "versions": ", ".join(f"{name} {version}" for name, version in here.versions.items()),
     }
 
 
 def network_facts() -> Facts:
     """Devices, and in which number format networks learn and act."""
-    from models import hardware, presets
+    from models import distributed, hardware, presets
     from models.energy_scoring import resolved
 
     device = hardware.choose_device()
     settings = presets.preset("standard", "da-ibc")
     return {
         **hardware.describe(),
+        "torchrun": f"{distributed.backend(device)} between processes on {device.type}",
         "trains in": resolved(settings.optimiser.precision, device),
         "scores actions in": f"{resolved(settings.sampler.precision, device)}, sampler {settings.sampler.kind}",
     }
@@ -93,10 +96,19 @@ def solver_facts() -> Facts:
 
 def executor_facts() -> Facts:
     """What `--jobs` and `--backend` can do here."""
-    from mjdrive.execution.pool import available_cores
+    from mjdrive.execution.pool import THREADS, available_cores
 
+    cores = available_cores()
+    if THREADS in os.environ:
+        threads = f"{os.environ[THREADS]} threads a process, as {THREADS} says"
+    elif cores == 1:
+        threads = "1 thread a process"
+    else:
+        threads = f"cores / N threads a process: {cores} with 1, 1 with {cores} and more"
     return {
-        "--jobs auto": f"{available_cores()} processes",
+        "cores available": f"{cores} of {os.cpu_count()}",
+        "--jobs auto": "1 process" if cores == 1 else f"{cores} processes",
+        "--jobs N": threads,
         "--backend ray": _package("ray", extra="ray"),
         "--backend slurm": _slurm(),
     }

@@ -62,13 +62,13 @@ def executor_options(command: Command) -> Command:
             default="local",
             show_default=True,
             metavar="local|ray|slurm",
-            help="Where to drive: processes of this machine, a Ray cluster that runs, or Slurm.",
+            help="Where it is done: in processes of this machine, on a Ray cluster that runs, or on Slurm.",
         ),
         click.option(
             "--jobs",
             callback=_read_jobs,
             metavar="N|auto",
-            help="Drives at once; the files are the same. auto: one a core of this machine, or what the cluster takes. "
+            help="Drives or trainings at once; the files are the same. auto: one a core of this machine, or what the cluster takes. "
             "[default: 1 here, auto on a cluster]",
         ),
     ):
@@ -77,7 +77,7 @@ def executor_options(command: Command) -> Command:
 
 
 def chosen_executor(jobs: Jobs, backend: str, address: str | None) -> "Executor":
-    """Make the executor that a user asks for.
+    """Make the executor that a user asks for; more processes than cores are made, with a note.
 
     Args:
         jobs: Value of --jobs [-].
@@ -91,7 +91,16 @@ def chosen_executor(jobs: Jobs, backend: str, address: str | None) -> "Executor"
         UnknownNameError: If there is no such backend.
     """
     from mjdrive.execution.executors import executor_for
+    from mjdrive.execution.pool import available_cores
 
     if jobs is None:
         jobs = 1 if backend == "local" else "auto"
+    cores = available_cores()
+    if backend == "local" and jobs != "auto" and jobs > cores:
+        there = "1 core that there is" if cores == 1 else f"{cores} cores that there are"
+        click.echo(
+            f"--jobs {jobs} is more than the {there} for mjdrive here: processes will wait for each other, and each takes "
+            f"its memory. --jobs auto takes {cores}.",
+            err=True,
+        )
     return executor_for(jobs=None if jobs == "auto" else jobs, backend=backend, address=address)

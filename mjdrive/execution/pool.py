@@ -29,7 +29,7 @@ BETWEEN_REPORTS = 0.1
 END_WITHIN = 5.0
 """Time for all processes to end when they are told to; then they are killed [s]."""
 
-_THREADS = "OMP_NUM_THREADS"
+THREADS = "OMP_NUM_THREADS"
 """Says to numpy and torch how many threads they may have."""
 
 
@@ -174,14 +174,14 @@ def _no_interrupts() -> Iterator[None]:
 @contextmanager
 def _threads_shared_by(num_processes: int) -> Iterator[None]:
     """Let processes that are started here share the cores; each on all of them would slow all down."""
-    before = os.environ.get(_THREADS)
+    before = os.environ.get(THREADS)
     if before is None:
-        os.environ[_THREADS] = str(max(1, available_cores() // num_processes))
+        os.environ[THREADS] = str(max(1, available_cores() // num_processes))
     try:
         yield
     finally:
         if before is None:
-            del os.environ[_THREADS]
+            del os.environ[THREADS]
 
 
 def available_cores() -> int:

@@ -1,4 +1,5 @@
 import json
+import os
 
 import pytest
 from click.testing import CliRunner
@@ -24,11 +25,36 @@ def told() -> info.Facts:
 
 def test_what_is_used_here_is_told() -> None:
     facts = told()
-    assert facts["--jobs auto"] == f"{available_cores()} processes"
+    assert facts["--jobs auto"] == (
+        "1 process" if available_cores() == 1 else f"{available_cores()} processes"
+    )
     assert facts["known"].split(", ") == list(library.town_names())
     assert facts["solver"] == "fatrop"
     assert facts["device used"] == str(hardware.choose_device())
     assert "mujoco" in facts["versions"]
+
+
+def test_cores_threads_and_what_joins_processes_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("OMP_NUM_THREADS", "3")
+    facts = told()
+    assert facts["compiler"] == "none needed"
+    assert facts["cores available"] == f"{available_cores()} of {os.cpu_count()}"
+    assert facts["--jobs N"] == "3 threads a process, as OMP_NUM_THREADS says"
+    kind = hardware.choose_device().type
+    joined_by = {"cpu": "gloo", "cuda": "nccl"}[kind]
+    assert facts["torchrun"] == f"{joined_by} between processes on {kind}"
+    monkeypatch.delenv("OMP_NUM_THREADS")
+    monkeypatch.setattr(os, "sched_getaffinity", lambda pid: set(range(6)))
+    assert told()["--jobs N"] == "cores / N threads a process: 6 with 1, 1 with 6 and more"
+
+
+@pytest.mark.usefixtures("on_one_core")
+def test_of_one_core_one_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    facts = told()
+    assert facts["cores available"].startswith("1 of ")
+    assert facts["--jobs auto"] == "1 process"
+    assert facts["--jobs N"] == "1 thread a process"
 
 
 def test_table_shows_the_same_facts() -> None:
