@@ -1,5 +1,6 @@
-"""A drive of a second and a half, for whoever shows, sends or takes drives."""
+"""A drive of a second and a half, for whoever shows, sends or takes drives, and a cluster, for whoever shares work out."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -7,6 +8,36 @@ import pytest
 from mjdrive.cli.driver import find_driver
 from mjdrive.datatypes import Episode, Town
 from mjdrive.simulation.simulation import Simulation
+
+MEGABYTE = 2**20
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Let one process run all tests on Ray, so that they share one cluster.
+
+    First, because what hands out tests to processes reads the groups in the same hook.
+    """
+    for item in items:
+        if "ray_address" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.xdist_group("ray"))
+
+
+@pytest.fixture(scope="session")
+def ray_address() -> Iterator[str]:
+    """Head of a cluster of two nodes of one core on this machine; small, as CI has little shared memory."""
+    from ray.cluster_utils import Cluster  # noqa: PLC0415 - takes a second, and few need it
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO", "0")  # or Ray warns of its future
+        patch.setenv("RAY_OBJECT_STORE_ALLOW_SLOW_STORAGE", "1")
+        node = {"num_cpus": 1, "object_store_memory": 80 * MEGABYTE, "include_dashboard": False}
+        cluster = Cluster(initialize_head=True, head_node_args=node)
+        try:
+            cluster.add_node(**node)
+            yield cluster.address
+        finally:
+            cluster.shutdown()
 
 
 @pytest.fixture(scope="session")

@@ -1,4 +1,4 @@
-"""`mjdrive drive --episodes N` here and in two processes."""
+"""`mjdrive drive --episodes N` here, in two processes and on a cluster."""
 
 import hashlib
 import json
@@ -53,3 +53,17 @@ def test_two_processes_and_a_second_start_give_the_bytes_of_one_run(
     assert summary["seeds"] == [episode_seed(4, index) for index in range(3)]
     refused = CliRunner().invoke(main, [*WORDS, "--episodes", "3", "--out", "one", "--seed", "5"])
     assert (refused.exit_code, "they differ in seed." in refused.stderr) == (2, True)
+
+
+@pytest.mark.slow
+def test_a_ray_cluster_gives_the_bytes_of_one_run(
+    ray_address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    run("--episodes", "2", "--out", "one")
+    shown = run("--episodes", "2", "--backend", "ray", "--address", ray_address, "--out", "cluster")
+    assert "clean drives" in shown
+    assert digests(tmp_path / "cluster") == digests(tmp_path / "one")
+    assert {"episode-000/episode.hdf5", "episode-001/summary.json"} < digests(
+        tmp_path / "one"
+    ).keys()

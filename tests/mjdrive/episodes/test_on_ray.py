@@ -16,7 +16,6 @@ import numpy as np
 import psutil
 import pytest
 import ray
-from ray.cluster_utils import Cluster
 
 from mjdrive.config import CollectConfig
 from mjdrive.datatypes import Route, Town
@@ -26,25 +25,9 @@ from mjdrive.execution.ray_cluster import RayExecutor
 from mjdrive.execution.work import Executor, Tell, Work
 from mjdrive.town import routing
 
-MEGABYTE = 2**20
 EPISODES = 4
 BETWEEN_KILLS = 10.0
 """Time for a job to begin anew [s]."""
-
-
-@pytest.fixture(scope="module")
-def address() -> Iterator[str]:
-    """Head of a cluster of two nodes of one core; small, as CI has little shared memory."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO", "0")  # or Ray warns of its future
-        patch.setenv("RAY_OBJECT_STORE_ALLOW_SLOW_STORAGE", "1")
-        node = {"num_cpus": 1, "object_store_memory": 80 * MEGABYTE, "include_dashboard": False}
-        cluster = Cluster(initialize_head=True, head_node_args=node)
-        try:
-            cluster.add_node(**node)
-            yield cluster.address
-        finally:
-            cluster.shutdown()
 
 
 @pytest.fixture
@@ -121,14 +104,14 @@ def kill_a_driver(executor: NotingExecutor) -> bool:
 @pytest.mark.slow
 @pytest.mark.usefixtures("sent_by_value")
 def test_killed_process_costs_no_episode_and_changes_no_byte(
-    address: str, town02: Town, routes: dict[str, Route], tmp_path: Path
+    ray_address: str, town02: Town, routes: dict[str, Route], tmp_path: Path
 ) -> None:
     settings = CollectConfig(episodes=EPISODES)
     demonstrations.collect(town02, routes, tmp_path / "here", settings=settings, seed=0)
     finished: list[str] = []
     kill_again_at = 0.0
     at_sigterm = signal.getsignal(signal.SIGTERM)
-    ray_executor = executor_for(jobs=None, backend="ray", address=address)
+    ray_executor = executor_for(jobs=None, backend="ray", address=ray_address)
     assert isinstance(ray_executor, RayExecutor)
     (tmp_path / "attempts").mkdir()
     executor = NotingExecutor(ray_executor, tmp_path / "attempts")
