@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import rich_click as click
 
+from mjdrive.cli.options import Jobs, chosen_executor, executor_options
+
 if TYPE_CHECKING:
     from mjdrive.study.records.results import StudyResults
 
@@ -64,14 +66,7 @@ STUDIES = Path("studies")
     metavar="DIR",
     help="Folder with trained runs, called as bc-beta-0; what is missing in it is trained.",
 )
-@click.option(
-    "--jobs",
-    default=1,
-    show_default=True,
-    type=click.IntRange(min=1),
-    metavar="N",
-    help="Processes: so many drives at once, and so many trainings, each on as many threads as --set threads=N says (1).",
-)
+@executor_options
 @click.option(
     "--out",
     type=click.Path(path_type=Path),
@@ -90,18 +85,21 @@ def study(
     arms: str | None,
     data: tuple[str, ...],
     runs: Path | None,
-    jobs: int,
+    jobs: Jobs,
+    backend: str,
+    address: str | None,
     out: Path | None,
 ) -> None:
     """Compare methods: collect, train each with several seeds, drive, measure, and report.
 
-    An interrupted study can be run again with the same options and --out, and goes on.
+    An interrupted study can be run again with the same options and --out, and goes on. Each training has as many
+    threads as --set threads=N says (1). A cluster trains where it sees the folders of --out and --data; else agents are
+    trained here.
     """
     import datetime
 
     from mjdrive.cli.console import ended_by_sigterm, stage_bars
     from mjdrive.evaluation import report
-    from mjdrive.execution.executors import executor_for
     from mjdrive.study.settings import overrides  # torch takes a second
     from mjdrive.study.study import Study
 
@@ -121,7 +119,7 @@ def study(
         folder,
         _data_sets(data, config.demonstrations[0].name),
         runs,
-        executor_for(jobs=jobs),
+        chosen_executor(jobs, backend, address),
         _command(sys.argv),
     )
     with ended_by_sigterm(), stage_bars() as stage:

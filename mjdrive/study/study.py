@@ -46,7 +46,7 @@ class Study:
         folder: Where everything goes.
         data: Folders of data sets that are there already, by name; the study collects the others.
         trained: Folder with trained runs; agents that have none there are trained in the study.
-        executor: Where drives are made and agents are trained; the drives do not depend on it.
+        executor: Where drives are made and, if folders are shared there, agents are trained; the drives do not depend on it.
         command: What was typed to begin it, for the report; empty if nothing was.
     """
 
@@ -218,8 +218,10 @@ class Study:
 
     def _judge(self, place: Place, arms: tuple[ArmPlan, ...], stage: Stage) -> None:
         jobs = [it.judge for it in arms if it.judge is not None]
-        walk = self._names.data(HELD_OUT) if self.config.held_out_km else None
-        work = Judging(place, walk, self.config.held_out_frames, self.config.seed)
+        walk = (
+            dataset.read_dataset(self._names.data(HELD_OUT))[1] if self.config.held_out_km else ()
+        )
+        work = Judging(place, tuple(walk), self.config.held_out_frames, self.config.seed)
         judge_all(work, jobs, executor=self.executor, report=stage("judge", len(jobs)))
 
 

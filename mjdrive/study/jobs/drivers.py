@@ -1,16 +1,18 @@
-"""Who drives in a study, small enough to be sent to another process: a trained run with its way to act, or a reference."""
+"""Who drives in a study, wherever he is sent: a trained run with its way to act, or a reference."""
 
 import dataclasses
 import functools
 import json
-from collections.abc import Callable
-from dataclasses import dataclass
+import tempfile
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from mjdrive import config, versions
 from mjdrive.config import PidConfig, Reference, SimulationConfig
 from mjdrive.datatypes import Episode
-from mjdrive.episodes import driving
+from mjdrive.episodes import driving, store
 from mjdrive.errors import RunError
 from mjdrive.learning.pilot import Pilot
 from mjdrive.simulation.simulation import Simulation
@@ -21,10 +23,13 @@ from models.config import LearnerConfig, Precision
 from models.errors import ModelsError
 from models.interfaces import Learner
 
+_LUGGAGE = (checkpoint.CONFIG, checkpoint.MODEL)
+"""Files of a run that its agent needs in order to act."""
+
 
 @dataclass(frozen=True, slots=True)
 class Who:
-    """Somebody who drives.
+    """Somebody who drives; an agent that is pickled takes its weights along, so other machines need not see its run.
 
     Attributes:
         name: Of its files: arm and training seed, or the reference.
@@ -34,6 +39,7 @@ class Who:
         precision: Number format to score actions in where the settings of an agent leave it open.
         reference: Which reference it is; None for an agent.
         walk: Which random turns the expert takes from the same starts [-].
+        luggage: What an agent needs of its run where it was sent to, by name of the file; None where the run is.
     """
 
     name: str
@@ -43,6 +49,16 @@ class Who:
     precision: Precision = "float32"
     reference: Reference | None = None
     walk: int = 0
+    luggage: Mapping[str, bytes] | None = field(default=None, compare=False, repr=False)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Pack what is needed elsewhere, not before somebody is sent there: studies have hundreds of checkpoints.
+
+        Raises:
+            RunError: If the run has other weights than when it was planned.
+        """
+        values = {it.name: getattr(self, it.name) for it in dataclasses.fields(self)}
+        return functools.partial(Who, **values | {"luggage": _luggage(self)}), ()
 
 
 def agent(name: str, run: Path, settings: LearnerConfig, precision: Precision) -> Who:
@@ -63,16 +79,14 @@ def load_learner(who: Who) -> Learner:
     Raises:
         RunError: If the folder is no run, a file of it is damaged, or it has other weights than when it was planned.
     """
-    assert who.run is not None, "a reference has no network"
     assert who.settings is not None, "the study says how an agent acts"
-    try:
-        learner = checkpoint.load(who.run)
-    except ModelsError as error:
-        raise RunError(str(error)) from error
-    if digest(who.run) != who.digest:
-        raise RunError(
-            f"The run '{who.run}' has changed since the study began. Run the same command again."
-        )
+    with _run_of(who) as run:
+        try:
+            learner = checkpoint.load(run)
+        except ModelsError as error:
+            raise RunError(str(error).replace(str(run), str(who.run))) from error
+        if digest(run) != who.digest:
+            raise _changed(who)
     # The number format of training stays that which it settled on.
     learner.config = dataclasses.replace(who.settings, optimiser=learner.config.optimiser)
     sampler = learner.config.sampler
@@ -122,6 +136,37 @@ def drive(
         choose=functools.partial(rightmost, town) if goes_right else None,
         walk=who.walk,
         metadata=_metadata(who, simulation, config.to_json(PidConfig()), num_steps),
+    )
+
+
+def _luggage(who: Who) -> Mapping[str, bytes] | None:
+    if who.run is None or who.luggage is not None:
+        return who.luggage
+    try:
+        luggage = {name: (who.run / name).read_bytes() for name in _LUGGAGE}
+    except FileNotFoundError as error:
+        raise _changed(who) from error
+    if store.digest(luggage[checkpoint.MODEL]) != who.digest:
+        raise _changed(who)
+    return luggage
+
+
+@contextmanager
+def _run_of(who: Who) -> Iterator[Path]:
+    """The run of an agent, or a folder with what it took along of it."""
+    assert who.run is not None, "a reference has no network"
+    if who.luggage is None:
+        yield who.run
+        return
+    with tempfile.TemporaryDirectory() as place:
+        for name, content in who.luggage.items():
+            Path(place, name).write_bytes(content)
+        yield Path(place)
+
+
+def _changed(who: Who) -> RunError:
+    return RunError(
+        f"The run '{who.run}' has changed since the study began. Run the same command again."
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from mjdrive import config
 from mjdrive.bev.projector import BevProjector
-from mjdrive.episodes import dataset
+from mjdrive.datatypes import Episode
 from mjdrive.execution.work import Executor, Tell
 from mjdrive.study.jobs import landscapes
 from mjdrive.study.jobs.drivers import Who, load_learner
@@ -86,13 +86,13 @@ class Judging:
 
     Attributes:
         place: Where the expert's walk and the moments of the pictures are.
-        walk: Data folder of the walk; None if there is none.
+        walk: Episodes of the walk; none if nothing is held out.
         num_frames: Moments of it to ask about [-].
         seed: Decides which.
     """
 
     place: Place
-    walk: Path | None
+    walk: tuple[Episode, ...]
     num_frames: int
     seed: int
 
@@ -101,10 +101,9 @@ class Judging:
         require_same(self.place.versions)
         town = self.place.town
         walk = None
-        if self.walk is not None:
-            _, episodes = dataset.read_dataset(self.walk)
+        if self.walk:
             rng = np.random.default_rng(self.seed)
-            walk = held_out(episodes, town, num_frames=self.num_frames, rng=rng)
+            walk = held_out(self.walk, town, num_frames=self.num_frames, rng=rng)
         moments, projector = situations(town), BevProjector(town)
         return lambda job, tell: _ask(job, walk, moments, projector)
 
@@ -121,7 +120,6 @@ def judge_all(
         report: Told who has been asked.
 
     Raises:
-        DataError: If the walk is missing, unfinished or damaged.
         RunError: If the run of an agent cannot be loaded.
         WorkerError: If a process was lost.
     """

@@ -1,6 +1,11 @@
-"""Train the agents of a study, each in a run folder of its own that can be gone on with."""
+"""Train the agents of a study, each in a run folder of its own that can be gone on with.
+
+On a cluster whose machines see that folder and the data, agents are trained there; else here, as a run is not sent home
+before it is complete, and hours would be lost with whoever trains.
+"""
 
 import dataclasses
+import logging
 import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -11,10 +16,13 @@ import torch
 
 from mjdrive import versions
 from mjdrive.config import StudyConfig
+from mjdrive.execution.pool import PoolExecutor, available_cores
+from mjdrive.execution.serial import SerialExecutor
 from mjdrive.execution.work import Executor, Tell
 from mjdrive.learning import runs
 from mjdrive.learning.training import train
 from mjdrive.study.jobs.checkpoints import keep_epoch
+from mjdrive.study.jobs.shared_folders import SharedFolders, marked, why_not_there
 from mjdrive.study.jobs.sharing import Report, do_all
 from mjdrive.study.settings.agents import Agent, learner_config
 from models.config import LearnerConfig
@@ -56,17 +64,20 @@ class Training:
 
     Attributes:
         versions: Of the software where training was asked for.
+        folders: What has to be seen to train.
     """
 
     versions: dict[str, str]
+    folders: SharedFolders
 
     def begin(self) -> Callable[[TrainingJob, Tell], None]:
-        """Make sure of the versions; what comes back trains one run.
+        """Make sure of versions and folders; what comes back trains one run.
 
         Raises:
-            WorkerError: If this is a machine with other versions.
+            WorkerError: If this is a machine with other versions, or does not see the folders.
         """
         versions.require_same(self.versions)
+        self.folders.require_seen()
         return _train
 
 
@@ -91,8 +102,8 @@ def training_job(
         name=agent.name,
         config=dataclasses.replace(settings, optimiser=optimiser),
         seed=agent.seed,
-        data=data,
-        run=run,
+        data=data.absolute(),
+        run=run.absolute(),
         keep_every=0 if agent.variant.change else config.progress_every,
         num_steps=optimiser.epochs * optimiser.steps_per_epoch(num_training),
         threads=config.threads,
@@ -104,23 +115,43 @@ def train_all(jobs: Sequence[TrainingJob], *, executor: Executor, report: Report
     """Train every run.
 
     Args:
-        jobs: What to train.
-        executor: Where; the weights do not depend on how many processes train at once.
+        jobs: What to train; all with run folders beside each other, and with the same threads and device.
+        executor: Where, if those who work for it can; the weights do not depend on how many train at once.
         report: Told the name of a run, its steps so far and its steps in all.
 
     Raises:
         DataError: If the demonstrations are missing, unfinished or damaged.
         RunError: If a run folder holds a run with other settings, or training fails.
+        WorkerError: If a process or machine that trained was lost, has other versions or does not see what others see.
     """
-    do_all(
-        Training(versions.all_versions()),
-        jobs,
-        size=lambda job: job.num_steps,
-        is_done=lambda job: False,  # a run that is whole is checked, and goes on with nothing
-        keep=lambda job, _: None,  # its folder is all there is of it
-        executor=executor,
-        report=report,
+    if not jobs:
+        return
+    with marked(jobs[0].run.parent, {job.data for job in jobs}) as folders:
+        do_all(
+            Training(versions.all_versions(), folders),
+            jobs,
+            size=lambda job: job.num_steps,
+            is_done=lambda job: False,  # a run that is whole is checked, and goes on with nothing
+            keep=lambda job, _: None,  # its folder is all there is of it
+            executor=_place(jobs[0], folders, executor),
+            report=report,
+        )
+
+
+def _place(job: TrainingJob, folders: SharedFolders, executor: Executor) -> Executor:
+    """Where agents can be trained: where they were meant to be, or else here, which is said."""
+    obstacle = why_not_there(folders, job.device, versions.all_versions(), executor)
+    if obstacle is None:
+        return executor
+    # On a GPU one after the other, as several share its memory.
+    at_once = 1 if job.device != "cpu" else max(1, available_cores() // job.threads)
+    logging.getLogger(__name__).warning(
+        "Agents are trained here, %d at once: %s. The cluster trains them where it sees the folders of --out and --data "
+        "and has such a device; all else goes to the cluster.",
+        at_once,
+        obstacle,
     )
+    return SerialExecutor() if at_once == 1 else PoolExecutor(at_once)
 
 
 def _train(job: TrainingJob, tell: Tell) -> None:

@@ -27,6 +27,10 @@ def refused(tmp_path: Path, *options: str) -> str:
         (("--set", "optimiser.epochs=0"), "epochs is 0"),
         (("--data", "nowhere"), "Data folder 'nowhere' does not exist"),
         (("--runs", "nowhere"), "There is no folder 'nowhere'"),
+        (("--jobs", "0"), "0 is too small; expected at least 1, or auto"),
+        (("--backend", "rey"), "Did you mean 'ray'"),
+        (("--address", "10.0.0.7:6379"), "no effect with --backend local"),
+        (("--backend", "ray", "--address", "127.0.0.1:1"), "Nobody answers at '127.0.0.1:1'"),
     ],
 )
 def test_mistakes_are_refused_before_anything_runs(

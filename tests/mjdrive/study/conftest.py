@@ -1,5 +1,6 @@
-"""A study of seconds, and what it left."""
+"""Studies of seconds, and what they left."""
 
+import dataclasses
 from pathlib import Path
 
 import pytest
@@ -51,4 +52,27 @@ def tiny_folder(tiny: StudyConfig, tmp_path_factory: pytest.TempPathFactory) -> 
     """The folder of that study; nobody writes into it."""
     folder = tmp_path_factory.mktemp("studies") / "tiny"
     Study(tiny, folder).run(tell_nobody)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def tiniest(tiny: StudyConfig) -> StudyConfig:
+    """A part of that study: one agent with one way to act, and every stage with as little to do as can be."""
+    return dataclasses.replace(
+        tiny,
+        preset="tiniest",
+        variants=tiny.variants[:1],
+        arms=tiny.arms[:1],
+        references=("expert",),
+        expert_walks=1,
+        long_steps=0,
+        progress_every=0,
+    )
+
+
+@pytest.fixture(scope="session")
+def tiniest_folder(tiniest: StudyConfig, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of that part; nobody writes into it."""
+    folder = tmp_path_factory.mktemp("studies") / "tiniest"
+    Study(tiniest, folder).run(tell_nobody)
     return folder

@@ -1,5 +1,6 @@
 """How the agents of a study are trained."""
 
+from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
@@ -7,6 +8,7 @@ import torch
 
 from mjdrive.execution.serial import SerialExecutor
 from mjdrive.study.jobs import training
+from mjdrive.study.jobs.shared_folders import SharedFolders
 from mjdrive.study.jobs.training import TrainingJob, train_all
 from models import presets
 
@@ -15,6 +17,7 @@ def test_each_training_has_its_own_number_of_threads_whatever_the_machine_has(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     seen = []
+    monkeypatch.setattr(training, "marked", lambda runs, data: nullcontext(SharedFolders({})))
     monkeypatch.setattr(training, "train", lambda *_, **__: seen.append(torch.get_num_threads()))
     jobs = [
         TrainingJob(
