@@ -89,7 +89,8 @@ def why_not_there(
     """
     work = _Looking(folders, device, versions)
     with closing(executor.run(work, [_Look()], on_progress=lambda job, done: None)) as results:
-        return next(results)[1]
+        ((_, obstacle),) = results  # to the end, where executors clean up
+    return obstacle
 
 
 @dataclass(frozen=True, slots=True)

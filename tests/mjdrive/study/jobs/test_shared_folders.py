@@ -8,6 +8,7 @@ import torch
 from mjdrive import versions
 from mjdrive.errors import DataError, WorkerError
 from mjdrive.execution.serial import SerialExecutor
+from mjdrive.execution.slurm import SlurmExecutor
 from mjdrive.study.jobs import shared_folders
 from mjdrive.study.jobs.shared_folders import SharedFolders, marked, why_not_there
 
@@ -37,6 +38,13 @@ def test_folders_are_seen_while_they_are_marked_and_nothing_stays_behind(
         with pytest.raises(WorkerError, match=r"does not see .*runs.*--backend local"):
             folders.require_seen()
     assert list((tmp_path / "runs").iterdir()) == []
+
+
+def test_slurm_is_asked_without_leaving_anything(tmp_path: Path, data: Path) -> None:
+    executor = SlurmExecutor(cluster="local", folder=tmp_path / "slurm", poll=0.1)
+    with marked(tmp_path / "runs", [data]) as folders:
+        assert why_not_there(folders, "cpu", versions.all_versions(), executor) is None
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["data", "runs"]
 
 
 def test_other_data_of_that_name_is_not_seen(tmp_path: Path, data: Path) -> None:
