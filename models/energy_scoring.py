@@ -12,7 +12,7 @@ from torch import Tensor
 from torch.nn import functional as F  # noqa: N812
 
 from models import hardware
-from models.config import Precision
+from models.config import Precision, SamplerConfig
 from models.energy import HIDDEN_SIZE, EnergyHead
 from models.threads import for_each, one_thread
 
@@ -43,6 +43,23 @@ def resolved(precision: Precision, device: torch.device | str = "cpu") -> Precis
     if precision != "auto":
         return precision
     return "bfloat16" if hardware.bfloat16_is_fast(device) else "float32"
+
+
+def resolved_for(sampler: SamplerConfig, device: torch.device | str = "cpu") -> Precision:
+    """The number format that a sampler scores candidates in on a device.
+
+    Args:
+        sampler: How actions are found. As `resolved`, but "auto" takes float32 for a grid on a CPU: by tiles
+            (`models.grid_scoring`) that is quicker than bfloat16, and exact.
+        device: Where energies are computed.
+
+    Returns:
+        "float32" or "bfloat16".
+    """
+    by_tiles = sampler.kind == "grid" and torch.device(device).type == "cpu"
+    if sampler.precision == "auto" and by_tiles:
+        return "float32"
+    return resolved(sampler.precision, device)
 
 
 class EnergyScorer:

@@ -10,9 +10,10 @@ from models.config import LearnerConfig
 from models.contrast import contrastive_loss
 from models.encoder import Encoder, draw_dropout, drop_previous_action
 from models.energy import EnergyHead
-from models.energy_scoring import EnergyScorer
+from models.energy_scoring import EnergyScorer, resolved_for
 from models.energy_slopes import EnergySlopes
 from models.expert_actions import ExpertActions
+from models.grid_scoring import GridScorer
 from models.interfaces import Batch, Chance, Learner
 from models.negatives import uniform_actions
 from models.samplers import dfo, grid, langevin
@@ -122,6 +123,15 @@ class IbcLearner(Learner):
         scorer = EnergyScorer(self.energy, self.encoder(bev, state), "float32")
         return -self._undone(scorer)(actions)
 
+    def _scorer(self, features: Float[Tensor, "B F"], *, num_threads: int) -> EnergyFunction:
+        """Who scores what the sampler hands over: a grid in float32 on a CPU by tiles, all else candidate by candidate."""
+        settings = self.config.sampler
+        precision = resolved_for(settings, features.device)
+        by_tiles = settings.kind == "grid" and precision == "float32"
+        if by_tiles and features.device.type == "cpu":
+            return GridScorer(self.energy, features, num_threads=num_threads)
+        return EnergyScorer(self.energy, features, precision, num_threads=num_threads)
+
     def _undone(self, energy: EnergyFunction) -> EnergyFunction:
         """The energy that acting goes by: without what the settings take out of it."""
         if self.config.sampler.undo == "none":
@@ -149,9 +159,7 @@ class IbcLearner(Learner):
         settings = self.config.sampler
         with one_thread() as num_threads:
             features = self.encoder(bev, state)
-            energy = self._undone(
-                EnergyScorer(self.energy, features, settings.precision, num_threads=num_threads)
-            )
+            energy = self._undone(self._scorer(features, num_threads=num_threads))
             if settings.kind == "grid":
                 return grid.choose(
                     energy,

@@ -5,7 +5,7 @@ import torch
 from mjdrive.benchmarks.comparison import Comparison, Plan
 from mjdrive.benchmarks.decisions import GRID_POINTS, decision, observation, sampler
 from mjdrive.benchmarks.timing import paired
-from models.energy_scoring import resolved
+from models.energy_scoring import resolved_for
 
 LEAST = 4.0
 """How many times faster than our search a decision is to be [-]."""
@@ -17,15 +17,13 @@ def measure(plan: Plan) -> tuple[Comparison, ...]:
     Args:
         plan: How much to measure.
     """
-    seen = observation()
-    pair = paired(
-        decision(sampler("grid"), seen), decision(sampler("dfo"), seen), rounds=plan.rounds(31)
-    )
+    seen, settings = observation(), sampler("grid")
+    pair = paired(decision(settings, seen), decision(sampler("dfo"), seen), rounds=plan.rounds(31))
     points = f"{GRID_POINTS} x {GRID_POINTS}"
     return (
         Comparison(
             name="grid decision",
-            work=f"one decision, encoder included, in {resolved('auto')}",
+            work=f"one decision, encoder included, in {resolved_for(settings)}",
             ours=f"exact softmax on {points} points",
             theirs="our search, 16384 candidates x 5 passes",
             our_rounds=pair.ours,

@@ -53,7 +53,7 @@ def machine_facts() -> Facts:
 def network_facts() -> Facts:
     """Devices, and in which number format networks learn and act."""
     from models import distributed, hardware, presets
-    from models.energy_scoring import resolved
+    from models.energy_scoring import resolved, resolved_for
 
     device = hardware.choose_device()
     settings = presets.preset("standard", "da-ibc")
@@ -61,7 +61,7 @@ def network_facts() -> Facts:
         **hardware.describe(),
         "torchrun": f"{distributed.backend(device)} between processes on {device.type}",
         "trains in": resolved(settings.optimiser.precision, device),
-        "scores actions in": f"{resolved(settings.sampler.precision, device)}, sampler {settings.sampler.kind}",
+        "scores actions in": f"{resolved_for(settings.sampler, device)}, sampler {settings.sampler.kind}",
     }
 
 

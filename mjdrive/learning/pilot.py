@@ -9,7 +9,7 @@ from mjdrive.datatypes import Action, Observation
 from mjdrive.errors import RunError
 from mjdrive.learning.settings import acting_settings
 from models import checkpoint
-from models.energy_scoring import resolved
+from models.energy_scoring import resolved_for
 from models.errors import ModelsError
 from models.hardware import choose_device
 from models.interfaces import Learner
@@ -39,7 +39,7 @@ class Pilot:
     ) -> None:
         self.device = choose_device() if device is None else torch.device(device)
         sampler = learner.config.sampler
-        precision = resolved(sampler.precision, self.device)
+        precision = resolved_for(sampler, self.device)
         sampler = dataclasses.replace(sampler, precision=precision)
         learner.config = dataclasses.replace(learner.config, sampler=sampler)
         self.name = name

@@ -71,7 +71,7 @@ class SamplerConfig:
         grid: Exact choice on a grid.
         langevin: Chains that walk down the energy.
         undo: What training tilted and acting takes out again: the density of the "negatives", that of 1 / KDE weights ("density"), or "both".
-        precision: Number format of the hidden layers that score candidates; "auto" takes bfloat16 where the machine is fast at it, and float32 elsewhere.
+        precision: Number format of the hidden layers that score candidates; "auto" takes float32 for a grid on a CPU, else bfloat16 where the machine is fast at it, and float32 elsewhere.
     """
 
     kind: Literal["dfo", "grid", "langevin"] = "dfo"

@@ -158,7 +158,7 @@ def test_training_without_end_is_tilted_as_expected_and_corrections_give_the_sha
 def test_driving_goes_by_the_shares_that_undoing_gives_back(demonstrated, generator, monkeypatch):
     config = settings("da-ibc", "sampler", "none", "both")
     energies = best_energy(config, demonstrated)
-    monkeypatch.setattr(ibc, "EnergyScorer", lambda *_, **__: lambda _: energies.expand(1000, -1))
+    monkeypatch.setattr(ibc, "GridScorer", lambda *_, **__: lambda _: energies.expand(1000, -1))
     for undo, expected in (("none", (0.495, 0.009, 0.495)), ("both", UNTILTED)):
         learner = learner_for(settings("da-ibc", "sampler", "none", undo), demonstrated)
         steering = learner.act(*views(1000), generator=generator)[:, 1]

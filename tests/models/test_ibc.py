@@ -97,7 +97,8 @@ def test_both_samplers_of_a_learner_choose_from_the_same_bowl(small_config, gene
     def bowl(actions):
         return 100 * (actions - torch.tensor([0.25, -0.5])).square().sum(dim=-1)
 
-    monkeypatch.setattr(ibc, "EnergyScorer", lambda *_, **__: bowl)
+    for scorer in ("EnergyScorer", "GridScorer"):
+        monkeypatch.setattr(ibc, scorer, lambda *_, **__: bowl)
     by_search = learner.act(*unseen(1), generator=generator)
     learner.config = dataclasses.replace(
         config, sampler=dataclasses.replace(config.sampler, kind="grid")

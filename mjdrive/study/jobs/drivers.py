@@ -36,7 +36,7 @@ class Who:
         digest: SHA-256 of the weights, hexadecimal; empty for a reference.
         run: Folder of the trained run; None for a reference.
         settings: How it acts; None for a reference.
-        precision: Number format to score actions in where the settings of an agent leave it open.
+        precision: Number format to score candidates in where the settings of an agent leave it open; grids are float32.
         reference: Which reference it is; None for an agent.
         walk: Which random turns the expert takes from the same starts [-].
         luggage: What an agent needs of its run where it was sent to, by name of the file; None where the run is.
@@ -68,7 +68,7 @@ def agent(name: str, run: Path, settings: LearnerConfig, precision: Precision) -
         name: Of its files.
         run: Folder of the trained run.
         settings: How it acts.
-        precision: Number format to score actions in where its settings leave it open.
+        precision: Number format to score candidates in where its settings leave it open; grids are float32.
     """
     return Who(name, digest(run), run, settings, precision)
 
@@ -90,7 +90,8 @@ def load_learner(who: Who) -> Learner:
     # The number format of training stays that which it settled on.
     learner.config = dataclasses.replace(who.settings, optimiser=learner.config.optimiser)
     sampler = learner.config.sampler
-    if sampler.precision == "auto":  # else each machine would settle on its own
+    # Else each machine would settle on its own; a grid is scored in float32 on every CPU.
+    if sampler.precision == "auto" and sampler.kind != "grid":
         sampler = dataclasses.replace(sampler, precision=who.precision)
         learner.config = dataclasses.replace(learner.config, sampler=sampler)
     return learner

@@ -81,13 +81,17 @@ def test_preset_changes_how_it_acts_and_not_what_it_learnt(run: Path) -> None:
     assert policy.config.network == presets.quick("da-ibc").network
 
 
-@pytest.mark.parametrize(("is_fast", "expected"), [(True, "bfloat16"), (False, "float32")])
+@pytest.mark.parametrize(
+    ("preset", "is_fast", "expected"),
+    [("paper", True, "bfloat16"), ("paper", False, "float32"), ("quick", True, "float32")],
+)
 def test_config_names_the_number_format_that_acts(
-    run: Path, monkeypatch: pytest.MonkeyPatch, *, is_fast: bool, expected: str
+    run: Path, monkeypatch: pytest.MonkeyPatch, *, preset: str, is_fast: bool, expected: str
 ) -> None:
+    """`quick` takes a grid, `paper` searches."""
     monkeypatch.setattr(hardware, "bfloat16_is_fast", lambda device: is_fast)
     assert checkpoint.load_config(run).sampler.precision == "auto"
-    assert pilot.load(run).config.sampler.precision == expected
+    assert pilot.load(run, preset=preset).config.sampler.precision == expected
 
 
 def test_runs_from_before_there_was_a_precision_are_read(run: Path) -> None:
@@ -95,7 +99,7 @@ def test_runs_from_before_there_was_a_precision_are_read(run: Path) -> None:
     settings = json.loads(path.read_text())
     del settings["sampler"]["precision"]
     path.write_text(json.dumps(settings))
-    assert pilot.load(run).config.sampler.precision == resolved("auto")
+    assert pilot.load(run, preset="paper").config.sampler.precision == resolved("auto")
 
 
 def test_a_precision_that_does_not_exist_is_refused(run: Path) -> None:

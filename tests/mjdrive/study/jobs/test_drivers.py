@@ -21,7 +21,7 @@ from models.learners import build_learner
 def test_an_agent_acts_on_the_cpu_in_the_format_of_the_study_on_every_machine(
     monkeypatch: pytest.MonkeyPatch, precision: str
 ) -> None:
-    learner = build_learner(presets.quick("da-ibc"), seed=0)
+    learner = build_learner(presets.preset("paper", "da-ibc"), seed=0)
     assert learner.config.sampler.precision == "auto"
     monkeypatch.setattr("models.checkpoint.load", lambda run: learner)
     monkeypatch.setattr(drivers, "digest", lambda run: "ab")
@@ -33,6 +33,18 @@ def test_an_agent_acts_on_the_cpu_in_the_format_of_the_study_on_every_machine(
     pilot = drivers.load_pilot(who)
     assert pilot.device == torch.device("cpu")
     assert pilot.config.sampler.precision == precision
+
+
+def test_an_agent_scores_grids_in_float32_whatever_the_format_of_the_study(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    learner = build_learner(presets.quick("da-ibc"), seed=0)
+    assert learner.config.sampler.kind == "grid"
+    monkeypatch.setattr("models.checkpoint.load", lambda run: learner)
+    monkeypatch.setattr(drivers, "digest", lambda run: "ab")
+    monkeypatch.setattr("models.hardware.bfloat16_is_fast", lambda device="cpu": True)
+    who = Who("a", digest="ab", run=Path("b"), settings=learner.config, precision="bfloat16")
+    assert drivers.load_pilot(who).config.sampler.precision == "float32"
 
 
 def test_an_agent_keeps_a_format_that_its_settings_name(monkeypatch: pytest.MonkeyPatch) -> None:
