@@ -24,9 +24,9 @@ from models.threads import for_each, one_thread
 # T tiles, S actions along a side, P = S * S actions of a tile, H hidden units, K of the first layer and M of the second
 # that are computed action by action; 3 numbers: at the centre of a tile, by acceleration, by steering.
 
-# The side of a grid has this times the root of its points in tiles. Each tile costs products with all units, but small
-# ones have fewer units that change sides. This and the next three were found by timing.
-TILES_PER_ROOT = 0.7
+# Each tile costs products with all units, but small ones have fewer units that change sides. Found by timing, as are the
+# next three.
+ACTIONS_ALONG_A_SIDE = 16
 TILES_AT_A_TIME = 32
 # A tile that takes more multiplications than this action by action is quicker in four.
 MOST_PRODUCTS = 1.5e6
@@ -99,7 +99,7 @@ class GridScorer:
         """
         points = math.isqrt(candidates.shape[1])
         assert candidates.shape == (1, points**2, 2), "a square grid that observations share"
-        num_tiles = max(1, round(TILES_PER_ROOT * points**0.5))
+        num_tiles = max(1, round(points / ACTIONS_ALONG_A_SIDE))
         side = 2 * math.ceil(points / (2 * num_tiles))  # even, to be cut in four
         num_tiles = math.ceil(points / side)
         # Behind its end the last action of a row is repeated.
