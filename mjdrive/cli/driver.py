@@ -9,8 +9,8 @@ from mjdrive import config, plugins, versions
 from mjdrive.cli.solving import late_row, solve_rows
 from mjdrive.config import CollectConfig, SimulationConfig
 from mjdrive.datatypes import Episode, Observation, Policy, Town
-from mjdrive.episodes import driving, presets, store
-from mjdrive.errors import ConfigError, PluginError
+from mjdrive.episodes import driving, plugged, presets, store
+from mjdrive.errors import ConfigError
 from mjdrive.expert import experts
 from mjdrive.expert.solves import SOLVER, SOLVES
 from mjdrive.simulation.simulation import Simulation
@@ -235,13 +235,7 @@ def _expert_driver(expert: CollectConfig) -> Driver:
 
 def _plugin_driver(name: str) -> Driver:
     """A policy that another package brings along."""
-    make = plugins.load("policy", name)
-    policy = make() if callable(make) else make
-    if not isinstance(policy, Policy):
-        raise PluginError(
-            f"The policy '{name}' of {plugins.source('policy', name)} is a {type(policy).__name__}; expected name, "
-            "reset(seed) and act(observation), made by calling the entry point with nothing."
-        )
+    policy = plugged.make_policy(name)
     return Driver(policy.name, settings=_origin("policy", name), pilot=policy)
 
 

@@ -14,7 +14,7 @@ from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import library
 from mjdrive.web import wire
 from mjdrive.web.browsing import Shelf
-from mjdrive.web.policies import policy_names
+from mjdrive.web.choices import policy_names
 from mjdrive.web.replaying import episode_message, view_at
 from mjdrive.web.scene import scene_message
 from mjdrive.web.simulator import Simulator

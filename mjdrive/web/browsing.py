@@ -13,7 +13,7 @@ from mjdrive.datatypes import Episode
 from mjdrive.episodes import store
 from mjdrive.errors import DataError, MjdriveError, UnknownNameError
 from mjdrive.evaluation import report
-from mjdrive.web.policies import run_names
+from mjdrive.web.choices import run_names
 from models import checkpoint
 from models.errors import ModelsError
 

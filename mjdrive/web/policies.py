@@ -1,6 +1,5 @@
-"""Policies that a page can choose by name: what each decides, and what it thought of the alternatives."""
+"""Policies that a page can watch: what each decides, and what it thought of the alternatives."""
 
-from pathlib import Path
 from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
@@ -9,18 +8,15 @@ from jaxtyping import Float, Int8, UInt8
 from torch.nn import functional as F  # noqa: N812
 
 from mjdrive.config import CollectConfig, PidConfig
-from mjdrive.datatypes import Action, Observation
+from mjdrive.datatypes import Action, Observation, Policy
 from mjdrive.episodes.collection import expert_of
 from mjdrive.episodes.views import FollowWalk
-from mjdrive.errors import UnknownNameError
 from mjdrive.expert import experts
-from mjdrive.learning import pilot, runs
 from mjdrive.learning.pilot import Pilot
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.study.jobs.landscapes import action_grid
 from mjdrive.town import routing
 from mjdrive.town.random_walk import RandomWalk
-from mjdrive.zoo import entries
 from models.ibc import IbcLearner
 
 POINTS = 64
@@ -126,6 +122,42 @@ class ExpertMind:
         self._view = FollowWalk(walk)
 
 
+class GuestMind:
+    """A policy of another package: it decides, and of what it thinks nothing is known.
+
+    Args:
+        name: How the page calls it.
+        policy: The policy.
+    """
+
+    def __init__(self, name: str, policy: Policy[Observation]) -> None:
+        self.name = name
+        self._policy = policy
+
+    def begin(self, simulation: Simulation, seed: int) -> None:
+        """Start where `mjdrive drive` does."""
+        lane, station = start(simulation, seed)
+        simulation.reset(lane=lane, station=station, seed=seed)
+        self._policy.reset(seed)
+
+    def decide(self, simulation: Simulation, observation: Observation) -> Action:
+        """Ask the policy."""
+        del simulation
+        return self._policy.act(observation)
+
+    def take_over(self, simulation: Simulation) -> None:
+        """Nothing to do: it sees where the car is."""
+
+    def density(self, observation: Observation) -> Density | None:
+        """Its protocol knows actions alone."""
+        del observation
+        return None
+
+    def points(self) -> Int8[np.ndarray, "I N 2"] | None:
+        """Its protocol knows no search."""
+        return None
+
+
 class PilotMind:
     """A trained policy.
 
@@ -201,42 +233,3 @@ def start(simulation: Simulation, seed: int) -> tuple[str, float]:
     seconds = STEPS_LIKE_DRIVE * simulation.config.control_interval
     length = PidConfig().target_speed * seconds + 50.0
     return routing.random_start(simulation.town, np.random.default_rng(seed), length=length)
-
-
-def policy_names(folder: Path) -> tuple[str, ...]:
-    """List what can be chosen: trained runs, shipped policies, experts.
-
-    Args:
-        folder: Of run folders.
-    """
-    return (*run_names(folder), *entries.full_names(), *experts.NAMES)
-
-
-def run_names(folder: Path) -> tuple[str, ...]:
-    """List the training runs in a folder that links do not lead out of.
-
-    Args:
-        folder: Of run folders.
-    """
-    home = folder.resolve()
-    found = (it for it in folder.glob("[!.]*") if it.resolve().parent == home and runs.is_run(it))
-    return tuple(sorted(it.name for it in found))
-
-
-def load_mind(name: str, folder: Path) -> Mind:
-    """Load a policy by its name in the list; paths are not names.
-
-    Args:
-        name: One of `policy_names`.
-        folder: Of run folders.
-
-    Raises:
-        UnknownNameError: If it is not in the list.
-        RunError: If the run is damaged or gone.
-    """
-    if name not in policy_names(folder):
-        raise UnknownNameError("policy", name, policy_names(folder))
-    if name in experts.NAMES:
-        return ExpertMind(name)
-    place = entries.find(name) if name.startswith(entries.PREFIX) else folder / name
-    return PilotMind(pilot.load(place, name=name))

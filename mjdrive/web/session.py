@@ -10,7 +10,8 @@ from jaxtyping import Float
 from mjdrive.datatypes import Action, Infraction, Observation
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import library
-from mjdrive.web.policies import Mind, load_mind
+from mjdrive.web.choices import load_mind
+from mjdrive.web.policies import Mind
 from mjdrive.web.recording import Recording, keep, require_room
 from mjdrive.web.scene import scene_message
 

@@ -1,5 +1,7 @@
-"""A drive of a second and a half, for whoever shows, sends or takes drives, and a cluster, for whoever shares work out."""
+"""What tests of several rooms share: a drive of a second and a half, a cluster, and a package of somebody else."""
 
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,6 +12,7 @@ from mjdrive.datatypes import Episode, Town
 from mjdrive.simulation.simulation import Simulation
 
 MEGABYTE = 2**20
+EXAMPLE = Path(__file__).parents[2] / "examples" / "mjdrive-example"
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -38,6 +41,17 @@ def ray_address() -> Iterator[str]:
             yield cluster.address
         finally:
             cluster.shutdown()
+
+
+@pytest.fixture(scope="session")
+def example_package(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the example package, installed outside the repository, to be put first in PYTHONPATH."""
+    site = tmp_path_factory.mktemp("site")
+    words = ["install", "--quiet", "--no-deps", "--no-build-isolation", "--no-index"]
+    subprocess.run(
+        [sys.executable, "-m", "pip", *words, "--target", str(site), str(EXAMPLE)], check=True
+    )
+    return site
 
 
 @pytest.fixture(scope="session")

@@ -15,8 +15,6 @@ from mjdrive.town import library
 from mjdrive.vehicle import cars
 from mjdrive.vehicle.parameters import VehicleParameters
 
-EXAMPLE = Path(__file__).parents[2] / "examples" / "mjdrive-example"
-
 
 def bring(folder: Path, package: str, group: str, **entries: str) -> None:
     """Write what an installed package leaves behind of its entry points."""
@@ -39,11 +37,13 @@ def broken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         "    def act(self, view): raise NotImplementedError\n"
         "seven = 7\n"
         "def make_seven(*args, **kwargs): return 7\n"
+        "def burst(): raise ZeroDivisionError('all is lost')\n"
     )
     bring(tmp_path, "bursting", "mjdrive.experts", burst="bursting:Expert")
     bring(tmp_path, "sound", "mjdrive.experts", parked="sound:Parked", seven="sound:make_seven")
     bring(tmp_path, "homeless", "mjdrive.towns", nowhere="sound:seven", town02="sound:seven")
-    bring(tmp_path, "mute", "mjdrive.policies", mute="sound:make_seven", absent="sound:nothing")
+    policies = {"mute": "sound:make_seven", "absent": "sound:nothing", "late": "sound:burst"}
+    bring(tmp_path, "mute", "mjdrive.policies", **policies)
     monkeypatch.syspath_prepend(tmp_path)
     return tmp_path
 
@@ -66,6 +66,8 @@ def test_what_is_no_policy_expert_or_town_is_refused(broken: Path) -> None:
         find_driver("mute", broken)
     with pytest.raises(PluginError, match=r"absent.*AttributeError"):
         find_driver("absent", broken)
+    with pytest.raises(PluginError, match=r"'late' of mute 1.0 cannot be made: ZeroDivisionError"):
+        find_driver("late", broken)
     with pytest.raises(PluginError, match=r"town 'nowhere' of homeless 1.0 is 7; expected"):
         library.load("nowhere")
 
@@ -104,17 +106,6 @@ def test_listing_tells_what_is_wrong(broken: Path) -> None:
     assert "all is lost" in listed["burst"].problem
 
 
-@pytest.fixture(scope="module")
-def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The example package, installed outside the repository."""
-    site = tmp_path_factory.mktemp("site")
-    words = ["install", "--quiet", "--no-deps", "--no-build-isolation", "--no-index"]
-    subprocess.run(
-        [sys.executable, "-m", "pip", *words, "--target", str(site), str(EXAMPLE)], check=True
-    )
-    return site
-
-
 def run(site: Path, folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [sys.executable, "-m", "mjdrive", *words],
@@ -128,10 +119,10 @@ def run(site: Path, folder: Path, *words: str) -> subprocess.CompletedProcess[st
 
 @pytest.mark.parametrize("policy", ["example-policy", "example-expert"])
 def test_example_package_drives_in_its_own_town(
-    policy: str, installed: Path, tmp_path: Path
+    policy: str, example_package: Path, tmp_path: Path
 ) -> None:
     words = ("--town", "example-town", "--policy", policy, "--steps", "80")
-    done = run(installed, tmp_path, "drive", *words, "--out", "drive")
+    done = run(example_package, tmp_path, "drive", *words, "--out", "drive")
     assert done.returncode == 0, done.stderr
     assert f"{policy} in example-town" in done.stdout
     figures = (tmp_path / "drive" / "summary.json").read_text()
@@ -139,8 +130,8 @@ def test_example_package_drives_in_its_own_town(
     assert '"collisions": 0' in figures
 
 
-def test_info_lists_the_example_package(installed: Path, tmp_path: Path) -> None:
-    shown = run(installed, tmp_path, "info").stdout
+def test_info_lists_the_example_package(example_package: Path, tmp_path: Path) -> None:
+    shown = run(example_package, tmp_path, "info").stdout
     for name in ("policy example-policy", "expert example-expert", "town example-town"):
         assert name in shown
     assert "mjdrive-example 0.1.0" in shown

@@ -11,20 +11,11 @@ import torch
 from mjdrive.datatypes import Observation
 from mjdrive.errors import RunError
 from mjdrive.simulation.simulation import Simulation
-from mjdrive.web.policies import POINTS, PilotMind, load_mind, policy_names, shade
+from mjdrive.web.choices import load_mind
+from mjdrive.web.policies import POINTS, PilotMind, shade
 from mjdrive.zoo import entries
 from models import checkpoint
 from models.samplers.grid import action_grid
-
-
-def test_runs_that_links_lead_out_to_are_not_listed(tmp_path: Path) -> None:
-    outside, runs = tmp_path / "outside", tmp_path / "runs"
-    for folder in (outside, runs / "inside", runs / ".hidden"):
-        folder.mkdir(parents=True)
-        (folder / checkpoint.STATE).write_text("{}")
-    (runs / "link").symlink_to(outside)
-    assert policy_names(runs)[0] == "inside"
-    assert not {"link", ".hidden"} & set(policy_names(runs))
 
 
 def test_weights_are_never_a_pickle(tmp_path: Path) -> None:

@@ -9,7 +9,8 @@ from mjdrive.datatypes import Action
 from mjdrive.episodes import dataset
 from mjdrive.errors import DataError, UnknownNameError
 from mjdrive.web import wire
-from mjdrive.web.policies import DEPTH, load_mind, shade
+from mjdrive.web.choices import load_mind
+from mjdrive.web.policies import DEPTH, shade
 from mjdrive.web.recording import HUMAN, SOURCE
 from mjdrive.web.replaying import episode_message
 from mjdrive.web.session import Choice, Session
