@@ -1,6 +1,7 @@
 """A session without network, and a simulator that is turned by hand, with an audience that notes what it is told."""
 
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -122,6 +123,14 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     command += ["--disable-pip-version-check", "--target", str(folder / "site"), wheel]
     subprocess.run(command, check=True)
     return folder / "site"
+
+
+@pytest.fixture(scope="session")
+def environment(installed: Path) -> dict[str, str]:
+    """Where only the wheel, and never the checkout, is found."""
+    kept = [it for it in os.environ.get("PYTHONPATH", "").split(os.pathsep) if it]
+    others = [it for it in kept if Path(it).resolve() != ROOT]
+    return {**os.environ, "PYTHONPATH": os.pathsep.join([str(installed), *others])}
 
 
 def straight_episode() -> Episode:

@@ -1,7 +1,6 @@
 """The page is in the wheel, and the installed wheel serves it far from the checkout."""
 
 import json
-import os
 import re
 import signal
 import socket
@@ -16,17 +15,8 @@ import pytest
 
 from mjdrive.web.server import PAGE
 
-ROOT = Path(__file__).resolve().parents[3]
 PATIENCE = 120.0
 """For the server to start on a busy machine [s]."""
-
-
-@pytest.fixture(scope="module")
-def environment(installed: Path) -> dict[str, str]:
-    """Where only the wheel, and never the checkout, is found."""
-    kept = [it for it in os.environ.get("PYTHONPATH", "").split(os.pathsep) if it]
-    others = [it for it in kept if Path(it).resolve() != ROOT]
-    return {**os.environ, "PYTHONPATH": os.pathsep.join([str(installed), *others])}
 
 
 @pytest.fixture(scope="module")

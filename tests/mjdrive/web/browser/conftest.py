@@ -1,6 +1,10 @@
-"""One server and one Chromium for all tests of a process; what the server says is the truth that the page is held to."""
+"""One server and one Chromium for all tests of a process; what the server says is the truth that the page is held to.
+
+The server runs out of the installed wheel, far from the checkout, beside a package of somebody else.
+"""
 
 import json
+import os
 import socket
 import subprocess
 import sys
@@ -13,6 +17,7 @@ from shutil import which
 from typing import Any
 
 import pytest
+from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from mjdrive.web import wire
@@ -62,18 +67,28 @@ class Watcher:
         self.pose: dict[str, Any] = {}
         self.panel: dict[str, Any] = {}
         self.num_panels = 0
+        self._is_closing = False
         self._thread = threading.Thread(target=self._listen, args=(address,))
         self._thread.start()
         wait(lambda: self.state and self.pose and self.panel, "the server's first words")
 
     def _listen(self, address: str) -> None:
         with connect(address.replace("http", "ws") + "ws", max_size=None) as self._socket:
-            for count, message in enumerate(filter(self._hear, self._socket), 1):
-                self._socket.send(json.dumps({"op": "ack", "n": count}))
-                head, _ = wire.unpack(message)
-                if head["k"] in ("pose", "panel"):
-                    setattr(self, head["k"], head)
-                    self.num_panels += head["k"] == "panel"
+            try:
+                for count, message in enumerate(filter(self._hear, self._socket), 1):
+                    self._socket.send(json.dumps({"op": "ack", "n": count}))
+                    self._see(wire.unpack(message)[0])
+            except ConnectionClosed:
+                if (
+                    not self._is_closing
+                ):  # what comes while it closes cannot be acknowledged any more
+                    raise
+
+    def _see(self, head: dict[str, Any]) -> None:
+        """Note what a binary message is about."""
+        if head["k"] in ("pose", "panel"):
+            setattr(self, head["k"], head)
+            self.num_panels += head["k"] == "panel"
 
     def _hear(self, message: str | bytes) -> bool:
         """Note a text message; whether this is a binary one."""
@@ -84,6 +99,7 @@ class Watcher:
         return False
 
     def close(self) -> None:
+        self._is_closing = True
         self._socket.close()
         self._thread.join()
 
@@ -160,12 +176,13 @@ class Bench:
 
 
 @pytest.fixture(scope="session")
-def address(shelves: Path) -> Iterator[str]:
+def address(shelves: Path, environment: dict[str, str], example_package: Path) -> Iterator[str]:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         url = f"http://127.0.0.1:{probe.getsockname()[1]}/"
     choice = ["--town", "town03", "--policy", "pid", "--port", url.strip("/").rsplit(":", 1)[1]]
     command = [sys.executable, "-m", "mjdrive", "serve", *choice]
+    found = os.pathsep.join([environment["PYTHONPATH"], str(example_package)])
 
     def answers() -> bool:
         assert server.poll() is None, "the server has ended"
@@ -175,7 +192,7 @@ def address(shelves: Path) -> Iterator[str]:
             return False
         return True
 
-    with subprocess.Popen(command, cwd=shelves) as server:
+    with subprocess.Popen(command, cwd=shelves, env=environment | {"PYTHONPATH": found}) as server:
         try:
             wait(answers, "the server")
             yield url

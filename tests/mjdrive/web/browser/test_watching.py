@@ -145,3 +145,13 @@ def test_a_drive_that_has_stopped_says_why(bench: Any) -> None:
     assert shown == f"The drive has stopped. {fault}"
     bench.page.evaluate("mjdrive.live.setState(mjdrive.state())")
     assert not bench.page.is_visible("#fault")
+
+
+def test_what_other_packages_bring_along_is_chosen_and_drives(bench: Any) -> None:
+    assert bench.page.locator("#town option[value='example-town']").count() == 1
+    for name in ("example-policy", "example-expert"):
+        bench.page.select_option("#policy", name)
+        bench.watcher.until(policy=name)
+        before = bench.watcher.num_panels
+        bench.wait(lambda before=before: bench.watcher.num_panels > before + 2, f"{name} to drive")
+        assert bench.watcher.state["fault"] == ""
