@@ -16,13 +16,14 @@ help:  ## Show this list
 install: $(VENV)/installed  ## Set up .venv with the tested versions
 
 # torch first and alone: a version that is there is kept, so nobody gets a second build of it. The checker of
-# OpenDRIVE files needs an older numpy, so it lives apart.
-$(VENV)/installed: pyproject.toml constraints.txt scripts/opendrive_checker.txt
+# OpenDRIVE files needs an older numpy, and LeRobot's reader asks for an older torch, so they live apart.
+$(VENV)/installed: pyproject.toml constraints.txt scripts/opendrive_checker.txt scripts/lerobot_reader.txt
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install --quiet --constraint constraints.txt torch
 	$(BIN)/pip install --quiet --constraint constraints.txt --editable ".[dev]"
 	$(PYTHON) -m venv $(VENV)/checker
 	$(VENV)/checker/bin/pip install --quiet --requirement scripts/opendrive_checker.txt
+	$(BIN)/pip install --quiet --no-deps --upgrade --target $(VENV)/lerobot --requirement scripts/lerobot_reader.txt
 	touch $@
 
 format: install  ## Format and mend what can be mended

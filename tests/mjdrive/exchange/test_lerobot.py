@@ -1,7 +1,4 @@
-"""A LeRobotDataset, read back by pyarrow, by PyAV and by Rerun's reader of LeRobot data sets.
-
-LeRobot's own package wants older torch and av than ours, so CI does not have it; docs/recordings.md says what it made of it.
-"""
+"""A LeRobotDataset, read back by pyarrow, by PyAV and by Rerun's reader of LeRobot data sets."""
 
 import dataclasses
 import json
