@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Installs what pip cannot: OpenGL without a display, for pictures of the scene; Chromium and npm, to test the live page and to
-# build it. Driving and training need none of it, and neither does looking at the live page.
+# Installs what pip cannot: OpenGL without a display, for pictures of the scene; Xvfb, a display without a screen, to test windows;
+# Chromium and npm, to test the live page and to build it. Driving and training need none of it, and neither does looking at the live page.
 set -euo pipefail
 
-packages=(libegl1 libgl1-mesa-dri libopengl0 libosmesa6)
+packages=(libegl1 libgl1-mesa-dri libopengl0 libosmesa6 xvfb)
 # These may have come from elsewhere than from the distribution.
 if ! command -v chromium chromium-browser google-chrome >/dev/null; then
     packages+=(chromium)

@@ -1,4 +1,4 @@
-"""`mjdrive view` with a window that is none: tests have no display."""
+"""`mjdrive view` with a window that is none; a real one opens in tests/mjdrive/envs/test_windows.py."""
 
 from pathlib import Path
 

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from absl.testing import absltest
 from dm_control.rl import control
+from dm_control.viewer.runtime import Runtime, State
 from dm_env import test_utils
 
 from mjdrive.envs import dm_environment
@@ -68,6 +69,32 @@ def test_physics_is_the_simulation_itself(env: control.Environment) -> None:
     assert env.control_timestep() == pytest.approx(0.1)
     with pytest.raises(NotImplementedError, match="another environment"):
         physics.copy()
+
+
+def test_the_runtime_of_dm_controls_viewer_runs_and_restarts_it() -> None:
+    env = dm_environment.load("town02", seed=4, time_limit=1.0)
+    runtime = Runtime(env, policy=lambda step: np.array([1.0, 0.0]))
+    begun: list[float] = []
+    changed: list[bool] = []
+    runtime.on_episode_begin += lambda: begun.append(runtime.get_time())
+    runtime.on_physics_changed += lambda: changed.append(True)
+    runtime.tick(0.1, paused=True)
+    assert (runtime.state, runtime.get_time()) == (State.RUNNING, 0.0)
+    for _ in range(5):
+        runtime.tick(0.1, paused=False)
+    assert 0.3 < runtime.get_time() < 0.7
+    runtime.single_step()
+    runtime.restart()
+    runtime.tick(0.1, paused=False)
+    assert runtime.get_time() == pytest.approx(0.1)
+    for _ in range(15):
+        runtime.tick(0.1, paused=False)
+    assert runtime.state == State.STOPPED  # by the time limit
+    runtime.restart()
+    runtime.tick(0.1, paused=False)
+    assert runtime.state == State.RUNNING
+    assert begun == [0.0, 0.0, 0.0]
+    assert changed == []  # no model is built again, so the viewer keeps its own
 
 
 def test_mistakes_are_told() -> None:

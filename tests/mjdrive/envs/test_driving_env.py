@@ -67,7 +67,7 @@ def test_entry_point_registers() -> None:
 
 def test_gymnasium_finds_nothing_to_complain_about() -> None:
     env = gymnasium.make("mjdrive/Town02-v0", render_mode="rgb_array")
-    check_env(env.unwrapped, skip_render_check=True)  # which opens a window
+    check_env(env.unwrapped, skip_render_check=True)  # test_windows.py renders, too
 
 
 def drive(env: DrivingEnv, seed: int, *, steps: int = 30) -> list[Any]:
