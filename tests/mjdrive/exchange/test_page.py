@@ -1,4 +1,4 @@
-"""The page by its content; what it looks like in a browser was looked at by people."""
+"""The page by its content; test_page_in_browser.py opens it."""
 
 import base64
 import html
