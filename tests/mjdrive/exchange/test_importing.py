@@ -1,5 +1,4 @@
 import dataclasses
-import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,7 +10,7 @@ from click.testing import CliRunner
 from mjdrive.cli.main import main
 from mjdrive.episodes import dataset, store
 from mjdrive.errors import DataError, UnknownNameError
-from mjdrive.exchange import from_carla_bc, from_minari, importing
+from mjdrive.exchange import from_minari, importing
 from mjdrive.exchange.importing import IMPORTED
 from mjdrive.exchange.minari import MAIN, METADATA
 from mjdrive.exchange.sources import Recording
@@ -82,18 +81,6 @@ def test_what_is_no_minari_data_set_is_refused(tmp_path: Path) -> None:
     (tmp_path / MAIN).write_bytes(b"nothing")
     with pytest.raises(DataError, match="is no whole Minari file"):
         from_minari.read(tmp_path)
-
-
-def test_carla_bc_is_refused_with_what_it_has_and_lacks(tmp_path: Path) -> None:
-    place = tmp_path / "route_00/ep_00"
-    place.mkdir(parents=True)
-    (place / "episode.json").write_text(json.dumps({"done": {}, "actions": {}, "state": {}}))
-    with pytest.raises(
-        DataError, match=r"1 episodes .* done, actions, state, .* lack town, position"
-    ):
-        from_carla_bc.read(tmp_path)
-    with pytest.raises(DataError, match="holds no demonstrations of carla-bc"):
-        from_carla_bc.read(place)
 
 
 def test_drives_outside_their_town_or_of_two_towns_are_refused(
