@@ -13,6 +13,7 @@ from starlette.testclient import TestClient, WebSocketTestSession
 
 from mjdrive.datatypes import Action
 from mjdrive.episodes import store
+from mjdrive.town import library
 from mjdrive.web import browsing, server, wire
 from mjdrive.web.browsing import Shelf
 from mjdrive.web.guard import LOOPBACK, Access
@@ -164,16 +165,46 @@ def test_nothing_is_changed_by_getting(client: TestClient, drive: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["../secret", "drives/../../secret", "/etc/passwd", "today/episode", "", "."]
+    "name",
+    ["../secret", "drives/../../secret", "drives/link", "/etc/passwd", "today/episode", "", "."],
 )
-def test_episodes_have_names_and_no_paths(client: TestClient, drive: Path, name: str) -> None:
+def test_episodes_have_names_and_no_paths(
+    client: TestClient, drive: Path, tmp_path: Path, name: str
+) -> None:
+    secret = tmp_path / "secret.hdf5"
+    shutil.copy(drive, secret)
+    (tmp_path / "drives" / "link.hdf5").symlink_to(secret)
     for answer in (
         client.get("/api/episode", params={"name": name}),
         client.get("/api/episode/view", params={"name": name, "step": "0"}),
+        client.get("/api/episode/file", params={"name": name}),
         client.post("/api/episode/delete", params={"name": name}),
     ):
         assert answer.status_code == 400
         assert answer.json()["error"].startswith(f"Unknown episode '{name}'")
+    assert secret.is_file()
+    whole = client.get("/api/episode/file", params={"name": "drives/today/episode"})
+    assert whole.content == drive.read_bytes()
+    assert "drives-today-episode.hdf5" in whole.headers["content-disposition"]
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "../town02",
+        "town02/../town02",
+        "town02/",
+        "/etc",
+        "",
+        ".",
+        "..",
+        str(library.towns_folder()),
+    ],
+)
+def test_towns_have_names_and_no_paths(client: TestClient, name: str) -> None:
+    answer = client.get("/api/scene", params={"town": name})
+    assert answer.status_code == 400
+    assert answer.json()["error"].startswith(f"Unknown town '{name}'")
 
 
 def test_an_episode_is_replayed_with_its_view(client: TestClient, drive: Path) -> None:
