@@ -4,8 +4,6 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from shutil import which
-from typing import Any
 
 import pytest
 
@@ -15,27 +13,6 @@ from mjdrive.simulation.simulation import Simulation
 
 MEGABYTE = 2**20
 EXAMPLE = Path(__file__).parents[2] / "examples" / "mjdrive-example"
-
-CHROMIUM = which("chromium") or which("chromium-browser") or which("google-chrome")
-FLAGS = [f"--disable-{it}" for it in ("dev-shm-usage", "quic", "component-update", "sync")]
-FLAGS += ["--no-sandbox", "--no-first-run", "--disable-background-networking"]
-# Compositing the page in software, too, would be four times slower.
-FLAGS += ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing"]
-PATIENCE = 240.0
-"""For a browser to start on a busy machine [s]."""
-
-
-@pytest.fixture(scope="session")
-def browser() -> Iterator[Any]:
-    """A Chromium; tests that use it are in the xdist group "browser", so that one process has one."""
-    if CHROMIUM is None:
-        pytest.skip("no Chromium on this machine")  # in CI a skipped test is a failed one
-    engine = pytest.importorskip("playwright.sync_api")
-    options = {"executable_path": CHROMIUM, "args": FLAGS, "timeout": 1000 * PATIENCE}
-    with engine.sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(**options)
-        yield chromium
-        chromium.close()
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -1,4 +1,4 @@
-"""The page by its content; test_page_in_browser.py opens it."""
+"""The page by its content; tests/mjdrive/web/browser/test_exported_page.py opens it."""
 
 import base64
 import html

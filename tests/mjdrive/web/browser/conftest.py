@@ -1,4 +1,4 @@
-"""One server for all tests of a process; what the server says is the truth that the page is held to.
+"""One server and one Chromium for all tests of a process; what the server says is the truth that the page is held to.
 
 The server runs out of the installed wheel, far from the checkout, beside a package of somebody else.
 """
@@ -13,6 +13,7 @@ import time
 import urllib.request
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from shutil import which
 from typing import Any
 
 import pytest
@@ -33,6 +34,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker(pytest.mark.xdist_group("browser"))
 
 
+CHROMIUM = which("chromium") or which("chromium-browser") or which("google-chrome")
+FLAGS = [f"--disable-{it}" for it in ("dev-shm-usage", "quic", "component-update", "sync")]
+FLAGS += ["--no-sandbox", "--no-first-run", "--disable-background-networking"]
+# Compositing the page in software, too, would be four times slower.
+FLAGS += ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing"]
 PATIENCE = 240.0
 """On a machine that is busy with many other things [s]."""
 
@@ -192,6 +198,18 @@ def address(shelves: Path, environment: dict[str, str], example_package: Path) -
             yield url
         finally:
             server.terminate()
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Any]:
+    if CHROMIUM is None:
+        pytest.skip("no Chromium on this machine")  # in CI a skipped test is a failed one
+    engine = pytest.importorskip("playwright.sync_api")
+    options = {"executable_path": CHROMIUM, "args": FLAGS, "timeout": 1000 * PATIENCE}
+    with engine.sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(**options)
+        yield chromium
+        chromium.close()
 
 
 @pytest.fixture(scope="session")

@@ -1,4 +1,4 @@
-"""The page of one drive, opened from the disk in Chromium: it draws, is scrubbed and plays, and asks nobody for anything."""
+"""A drive that was exported as a page, opened from the disk: it draws, is scrubbed and plays, and asks nobody for anything."""
 
 import dataclasses
 import time
@@ -11,13 +11,13 @@ import pytest
 
 from mjdrive.bev.layers import Layer
 from mjdrive.config import BevConfig
-from mjdrive.datatypes import Episode, Infraction
+from mjdrive.datatypes import Episode, Infraction, InfractionKind
 from mjdrive.exchange import formats
 from mjdrive.exchange.sources import Recording
 from mjdrive.exchange.views import ViewMaker
 from mjdrive.recording.playback import town_of
 
-pytestmark = [pytest.mark.timeout(900), pytest.mark.xdist_group("browser")]
+pytestmark = pytest.mark.timeout(900)
 
 PATIENCE = 240.0
 """For the page to draw on a busy machine [s]."""
@@ -65,6 +65,12 @@ class Shown:
         """Where the view shows no road, shape (192, 192)."""
         found = self.page.evaluate(IS_GROUND, 192)
         return np.array(list(found)).reshape(192, 192) == "1"
+
+
+@pytest.fixture(scope="module")
+def breach(short_drive: Episode) -> Infraction:
+    x, y = short_drive.vehicle[5, :2].tolist()
+    return Infraction(InfractionKind.COLLISION, 0.5, x, y, "</script> & <b>pole</b>")
 
 
 @pytest.fixture(scope="module")
