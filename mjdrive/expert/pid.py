@@ -12,6 +12,7 @@ from mjdrive import geometry
 from mjdrive.config import PidConfig
 from mjdrive.datatypes import Action, Route, Situation, Town
 from mjdrive.expert import reference
+from mjdrive.vehicle.drivetrain import Drivetrain
 from mjdrive.vehicle.parameters import VehicleParameters
 
 
@@ -43,7 +44,7 @@ class PidExpert:
 
     Args:
         town: Where it drives.
-        parameters: Size of the car.
+        parameters: Size and engine of the car.
         config: Speeds and gains.
         control_interval: Time between two decisions [s].
     """
@@ -62,6 +63,7 @@ class PidExpert:
         self._town = town
         parameters = parameters or VehicleParameters.default()
         self._nose_ahead = parameters.length - parameters.rear_overhang
+        self._drivetrain = Drivetrain.of(parameters)
         self._interval = control_interval
         self.reset(0)
 
@@ -120,4 +122,5 @@ class PidExpert:
             brake = self.config.brake_gain * -error
             return float(-min(brake, 1.0)) if brake > 0.1 else 0.0
         cut = max(1.0 - abs(steering), self.config.throttle_cut)
-        return float(np.clip(throttle, 0.0, 1.0)) * cut
+        # Over the dead band: a car that was stopped in a turn would else stand there for good, its throttle cut below it.
+        return self._drivetrain.throttle(float(np.clip(throttle, 0.0, 1.0)) * cut)

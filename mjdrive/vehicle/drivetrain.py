@@ -85,7 +85,11 @@ class Drivetrain(NamedTuple):
             return float(max(wanted / self.braking, -1.0))
         full = self.full_throttle(speed)
         share = min(wanted / full, 1.0) if full > 0 else 1.0
-        return float(self.dead_band + (1.0 - self.dead_band) * share)
+        return float(self.throttle(share))
+
+    def throttle(self, share: float) -> float:
+        """Throttle that gives a share of what the engine can: over the dead band, but for a share of 0 [-]."""
+        return self.dead_band + (1.0 - self.dead_band) * share if share > 0 else 0.0
 
     def lag(self, acceleration: float, speed: float) -> float:
         """Time constant of the pedal that an acceleration [m/s2] at a speed [m/s] asks for [s]."""

@@ -19,6 +19,7 @@ from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import library, routing
 from mjdrive.town.lane_graph import lane_length
 from mjdrive.town.route_line import lay
+from mjdrive.vehicle import cars
 
 LATEST_START = 1.0
 LATE_BRAKING = PidConfig().late_braking
@@ -161,6 +162,20 @@ def test_shorter_free_drive_is_the_beginning_of_the_longer(
     long = drive_expert(simulation, num_steps=240, seed=2, config=settings)
     np.testing.assert_array_equal(long.vehicle[:120], short.vehicle)
     np.testing.assert_array_equal(long.actions[:120], short.actions)
+
+
+@pytest.mark.parametrize("car", cars.SHIPPED)
+def test_car_that_stands_askew_drives_on(car: str, simulation: Simulation) -> None:
+    """As after a stop in a turn: steering cuts the throttle, and the mkz's stayed below the dead band for good."""
+    world = simulation if car == cars.DEFAULT else Simulation(simulation.town, car=cars.load(car))
+    route, _ = approach(world)
+    x, y = route.points[5]
+    world.place(x=float(x), y=float(y), yaw=float(route.yaw[5]) + 0.7, seed=0)
+    expert = expert_of(CollectConfig(), world)
+    episode = rollout(world, expert, FollowRoute(route), num_steps=60, seed=0)
+    assert np.abs(episode.labels[:10, 1]).min() > 0.9  # full lock
+    assert episode.vehicle[-1, 3] > 1.0
+    assert episode.infractions == ()
 
 
 def test_free_drive_through_town03_is_clean_on_its_roundabout_too() -> None:

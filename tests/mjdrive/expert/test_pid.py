@@ -5,6 +5,8 @@ from mjdrive.config import PidConfig
 from mjdrive.datatypes import Lane, Situation, Town, VehicleState
 from mjdrive.expert.pid import Pid, PidExpert
 from mjdrive.town.route_line import lay
+from mjdrive.vehicle import cars
+from mjdrive.vehicle.parameters import VehicleParameters
 
 LANE = Lane("lane", np.array([[0.0, 0.0], [100.0, 0.0]]), 4.0, (), None, None)
 TOWN = Town("plain", {"lane": LANE}, {}, np.array([0.0, -2.0, 100.0, 2.0]), "")
@@ -18,8 +20,8 @@ def situation(
     return Situation(0.0, state, ROUTE, station, offset, {})
 
 
-def first_action(**place: float):
-    return PidExpert(TOWN).act(situation(**place))
+def first_action(car: VehicleParameters | None = None, **place: float):
+    return PidExpert(TOWN, parameters=car).act(situation(**place))
 
 
 def test_integral_sees_only_a_window_of_errors():
@@ -61,3 +63,17 @@ def test_reset_forgets_the_past():
 def test_target_is_papers_speed_of_six_metres_a_second():
     assert PidConfig().target_speed == 6.0
     assert PidConfig().turn_speed == 4.5
+
+
+def test_throttle_of_a_car_with_a_dead_band_gets_over_it_however_it_steers():
+    mkz = cars.load("mkz").parameters
+    share = first_action(speed=0.0, yaw=1.0).acceleration
+    throttle = first_action(mkz, speed=0.0, yaw=1.0).acceleration
+    assert share < mkz.throttle_dead_band < throttle
+    assert throttle == pytest.approx(
+        mkz.throttle_dead_band + (1.0 - mkz.throttle_dead_band) * share
+    )
+
+
+def test_no_throttle_stays_none_with_a_dead_band():
+    assert first_action(cars.load("mkz").parameters, speed=6.05).acceleration == 0.0
