@@ -40,4 +40,11 @@ class CameraConfig:
             0.0 <= self.sideways <= math.pi,
             f"sideways of the cameras is {self.sideways:g} rad; expected between 0 and 3.14.",
         )
-        require(self.height > 0, f"height of the cameras is {self.height:g} m; expected over 0.")
+        require(
+            math.isfinite(self.ahead),
+            f"ahead of the cameras is {self.ahead:g} m; expected a finite number.",
+        )
+        require(
+            0.0 < self.height < math.inf,
+            f"height of the cameras is {self.height:g} m; expected over 0, not infinite.",
+        )

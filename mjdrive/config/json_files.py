@@ -53,7 +53,10 @@ def from_dict(kind: type[Config], values: dict[str, Any]) -> Config:
 
 def _reason(error: BaseException, kind: Any) -> str:
     """Say what is wrong with a value: in the words of the setting that refused it, if it did."""
-    return str(error) if isinstance(error, ConfigError) else format_exception(error, kind)
+    if isinstance(error, ConfigError):
+        return str(error)
+    detail = f" ({error})" if isinstance(error, ValueError) and str(error) else ""
+    return format_exception(error, kind) + detail
 
 
 def read_json(kind: type[Config], path: Path) -> Config:

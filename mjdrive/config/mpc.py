@@ -4,9 +4,13 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from mjdrive.config.json_files import require
+from mjdrive.config.ranges import COUNT, NOT_NEGATIVE, POSITIVE, SOME_SHARE, Range, require_ranges
 
 LatePlan = Literal["plan", "pid"]
 """What is driven when a plan came late."""
+
+_HORIZON = Range("more than 0 and at most 20 s", 0.0, 20.0, includes_least=False)
+"""A longer plan takes longer to solve than it is driven."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,23 +82,19 @@ class MpcConfig:
     late_plan: LatePlan = "plan"
 
     def __post_init__(self) -> None:
-        for name in (
-            "horizon",
-            "lateral_acceleration",
-            "acceleration",
-            "braking",
-            "max_jerk",
-            "late_after",
-        ):
-            value = getattr(self, name)
-            require(value > 0, f"{name} is {value}; expected a positive number.")
-        for name in self.__slots__:
-            if name.endswith("tolerance"):
-                value = getattr(self, name)
-                require(value > 0, f"{name} is {value}; expected a positive number.")
-        require(
-            0 < self.steering_rate_share <= 1,
-            f"steering_rate_share is {self.steering_rate_share}; expected a share in (0, 1].",
+        positive = (
+            "lateral_acceleration", "acceleration", "braking", "max_jerk", "max_braking", "hard_stop", "late_after",
+            *(name for name in self.__slots__ if name.endswith("tolerance")),
+        )  # fmt: skip
+        require_ranges(
+            self,
+            {
+                **dict.fromkeys(positive, POSITIVE),
+                "horizon": _HORIZON,
+                "lane_margin": NOT_NEGATIVE,
+                "steering_rate_share": SOME_SHARE,
+                "max_iterations": COUNT,
+            },
         )
         for name in ("max_braking", "hard_stop"):
             value = getattr(self, name)
@@ -105,8 +105,4 @@ class MpcConfig:
         require(
             self.late_plan in get_args(LatePlan),
             f"late_plan is '{self.late_plan}'; expected one of {', '.join(get_args(LatePlan))}.",
-        )
-        require(
-            self.max_iterations >= 1,
-            f"max_iterations is {self.max_iterations}; expected at least 1.",
         )

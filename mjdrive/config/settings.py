@@ -5,6 +5,14 @@ from dataclasses import dataclass
 from typing import Literal
 
 from mjdrive.config.json_files import require
+from mjdrive.config.ranges import (
+    COUNT,
+    FINITE,
+    NOT_NEGATIVE,
+    POSITIVE,
+    SHARE,
+    require_ranges,
+)
 
 ExtraLayer = Literal["route", "sidewalks", "buildings", "vehicles"]
 """A channel that the bird's-eye view can have beside the paper's five."""
@@ -43,9 +51,17 @@ class BevConfig:
 
     def __post_init__(self) -> None:
         require(self.size_px >= 16, f"size_px is {self.size_px}; expected at least 16.")
-        require(
-            self.pixels_per_metre > 0,
-            f"pixels_per_metre is {self.pixels_per_metre}; expected a positive number.",
+        require_ranges(
+            self,
+            {
+                "pixels_per_metre": POSITIVE,
+                "ego_above_bottom_px": FINITE,
+                "history_steps": NOT_NEGATIVE,
+                "light_width_share": POSITIVE,
+                "light_thickness_px": COUNT,
+                "road_outline_px": NOT_NEGATIVE,
+                "origin_ahead_of_rear_axle": FINITE,
+            },
         )
         require(
             self.road_outline_px == 0 or self.road_outline_px % 2 == 1,
@@ -73,6 +89,7 @@ class SimulationConfig:
     car_update_interval: float = 0.02
 
     def __post_init__(self) -> None:
+        require_ranges(self, dict.fromkeys(self.__slots__, POSITIVE))
         for longer, shorter in (
             ("control_interval", "car_update_interval"),
             ("car_update_interval", "timestep"),
@@ -175,8 +192,30 @@ class PidConfig:
     late_braking: float = 5.0
 
     def __post_init__(self) -> None:
+        for name in ("speed_gains", "steering_gains"):
+            gains = getattr(self, name)
+            require(
+                len(gains) == 3,
+                f"{name} is {gains}; expected three numbers: P, I and D.",
+            )
+        positive = (
+            "target_speed", "turn_speed", "turn_radius", "lateral_acceleration", "target_distance", "turn_target_distance",
+            "braking", "brake_gain", "recovery_speed", "late_braking",
+        )  # fmt: skip
+        not_negative = ("speed_gains", "steering_gains", "stop_gap", "recovery_offset")
+        require_ranges(
+            self,
+            {
+                **dict.fromkeys(positive, POSITIVE),
+                **dict.fromkeys(not_negative, NOT_NEGATIVE),
+                "integral_window": COUNT,
+                "throttle_cut": SHARE,
+            },
+        )
+        for name in ("speed_gains", "steering_gains"):
+            gains = getattr(self, name)
+            require(gains[0] > 0, f"{name} is {gains}; expected P, the first, to be more than 0.")
         require(
-            0 < self.turn_speed <= self.target_speed,
-            f"turn_speed is {self.turn_speed} m/s; expected more than 0 and at most target_speed "
-            f"({self.target_speed} m/s).",
+            self.turn_speed <= self.target_speed,
+            f"turn_speed is {self.turn_speed} m/s; expected at most target_speed ({self.target_speed} m/s).",
         )

@@ -1,5 +1,6 @@
 """Settings of a study: which agents are trained, in which ways they act, and how they are measured."""
 
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -134,6 +135,7 @@ class StudyConfig:
             _check(self, name, getattr(self, name) >= 1, "at least 1")
         for name in ("long_steps", "progress_every", "forks", "held_out_km"):
             _check(self, name, getattr(self, name) >= 0, "0 or more")
+        _check(self, "held_out_km", math.isfinite(self.held_out_km), "a finite number")
         _check(self, "fork_rollouts", self.fork_rollouts >= 1, "at least 1")
         _check(self, "long_steps", self.long_steps != 1, "0 or at least 2")
         for name in ("seeds", "ablation_seeds", "detail_seeds"):

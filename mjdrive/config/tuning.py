@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from mjdrive.config.json_files import require
+from mjdrive.config.ranges import NOT_NEGATIVE, POSITIVE, SOME_SHARE, require_ranges
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,8 +35,6 @@ class TuneConfig:
     def __post_init__(self) -> None:
         require(self.trials >= 2, f"trials is {self.trials}; expected 2 or more.")
         require(self.bends >= 1, f"bends is {self.bends}; expected 1 or more.")
-        require(0 < self.spread <= 1, f"spread is {self.spread}; expected a share in (0, 1].")
-        for name in ("offset_scale", "whiteness_scale", "jerk_scale", "slowness_scale"):
-            value = getattr(self, name)
-            require(value > 0, f"{name} is {value}; expected a positive number.")
-        require(self.mishap_cost >= 0, f"mishap_cost is {self.mishap_cost}; expected 0 or more.")
+        scales = ("offset_scale", "whiteness_scale", "jerk_scale", "slowness_scale")
+        others = {"spread": SOME_SHARE, "mishap_cost": NOT_NEGATIVE}
+        require_ranges(self, {**dict.fromkeys(scales, POSITIVE), **others})

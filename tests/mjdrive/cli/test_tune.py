@@ -67,6 +67,37 @@ def test_gains_of_another_car_are_refused_by_drive_and_collect(workplace):
     assert not (workplace / "data").exists()
 
 
+@pytest.mark.parametrize(
+    ("name", "value", "expected"),
+    [
+        ("braking", -1, "braking is -1.0; expected a positive number, not infinite"),
+        ("throttle_cut", 7, "throttle_cut is 7.0; expected a share in [0, 1]"),
+        ("target_distance", -5, "target_distance is -5.0; expected a positive number"),
+        (
+            "steering_gains",
+            [float("nan"), 0.05, 0.0],
+            "steering_gains is (nan, 0.05, 0.0); expected",
+        ),
+        ("speed_gains", [0.5], "speed_gains"),
+    ],
+)
+def test_gains_that_make_no_sense_are_refused_before_anything_drives(
+    workplace, name, value, expected
+):
+    gains = json.loads((workplace / "tunings/pid-default/gains.json").read_text())
+    gains["settings"][name] = value
+    (workplace / "edited.json").write_text(json.dumps(gains))
+    for words in (
+        (*DRIVE, "--policy", "pid", "--out", "f"),
+        ("collect", "--town", "town02", "--preset", "quick"),
+    ):
+        refused = run(*words, "--gains", "edited.json")
+        assert (refused.exit_code, expected in refused.stderr) == (2, True), refused.stderr
+        assert "Tune again: `mjdrive tune pid --car default`" in refused.stderr
+    assert not (workplace / "f").exists()
+    assert not (workplace / "data").exists()
+
+
 def test_unknown_expert_is_refused_before_anything_runs(workplace):
     refused = run("tune", "pdi")
     assert (refused.exit_code, "Did you mean 'pid'" in refused.stderr) == (2, True)

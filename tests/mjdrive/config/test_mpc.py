@@ -1,3 +1,5 @@
+import math
+
 import pytest
 
 from mjdrive.config import MpcConfig
@@ -8,6 +10,12 @@ from mjdrive.errors import ConfigError
     ("name", "value"),
     [
         ("horizon", 0.0),
+        ("horizon", math.inf),
+        ("horizon", 21.0),
+        ("lane_margin", -0.1),
+        ("max_braking", math.inf),
+        ("max_jerk", math.nan),
+        ("jerk_tolerance", math.inf),
         ("offset_tolerance", 0.0),
         ("final_heading_tolerance", -0.1),
         ("tolerance", 0.0),
