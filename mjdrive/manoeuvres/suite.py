@@ -14,6 +14,7 @@ from mjdrive.manoeuvres import (
     cost,
     determinism,
     handling,
+    own_bars,
     ramming,
     random_driving,
     town_moves,
@@ -88,7 +89,7 @@ def run(car: CarModel, plan: Plan, track: Track = lambda _name, _count: lambda: 
     compared()
     rounds = track("cost in a full town", cost.NUM_ROUNDS)
     bars += cost.bars(cost.measure(library.load(cost.TOWN), car=car, on_round=rounds))
-    return Report(car, driven, tuple(bars))
+    return Report(car, driven, own_bars.of_car(bars, car))
 
 
 def _moves(car: CarModel, track: Track) -> tuple[Bar, ...]:

@@ -4,11 +4,12 @@ import mujoco
 import numpy as np
 import pytest
 
-from mjdrive.datatypes import Town
+from mjdrive.datatypes import Action, Town
 from mjdrive.manoeuvres import (
     barriers,
     cost,
     determinism,
+    own_bars,
     ramming,
     random_driving,
     suite,
@@ -16,12 +17,13 @@ from mjdrive.manoeuvres import (
 )
 from mjdrive.manoeuvres.bars import failed
 from mjdrive.manoeuvres.cost import Cost
-from mjdrive.manoeuvres.energy import EnergyMeter, GainWatch
+from mjdrive.manoeuvres.energy import EnergyMeter, GainWatch, WorkMeter
 from mjdrive.manoeuvres.ramming import Ram, RammingGround
 from mjdrive.manoeuvres.random_driving import RandomDrive
 from mjdrive.manoeuvres.rig import GRAVITY, Rig
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town.lane_graph import lane_length
+from mjdrive.vehicle import cars
 from mjdrive.vehicle.car import Car
 
 TIGHTEST = 4
@@ -33,9 +35,11 @@ def ground(town02: Town) -> RammingGround:
     return RammingGround(town02)
 
 
-def test_random_driving_breaks_nothing_and_makes_no_energy():
-    drives = [random_driving.drive_randomly(seed, duration=20.0) for seed in (1, 2)]
-    assert failed(random_driving.bars(drives, 20.0)) == ()
+@pytest.mark.parametrize("name", cars.SHIPPED)
+def test_random_driving_breaks_nothing_and_makes_no_energy(name):
+    car = cars.load(name)
+    drives = [random_driving.drive_randomly(seed, car=car.path, duration=20.0) for seed in (1, 2)]
+    assert failed(own_bars.of_car(random_driving.bars(drives, 20.0), car)) == ()
     assert max(drive.largest_roll for drive in drives) > 1.0  # it was wild
 
 
@@ -65,6 +69,37 @@ def test_random_actions_are_the_seeds_and_cover_the_pedals():
     assert pedals.max() > 0.8
     assert (pedals == 0.0).any()
     assert np.ptp(steering) > 1.5
+
+
+@pytest.mark.parametrize(("pedal", "steering"), [(1.0, 0.0), (0.0, 1.0), (-1.0, -1.0)])
+def test_work_of_engine_and_rack_is_no_energy_from_nowhere(pedal, steering):
+    """Ten steps: the car is driven on, or its rack turned at a standstill, which alone used to count as a gain of 10 J."""
+    rig = Rig.of_car(cars.load("mkz").path, timestep=0.00125)
+    meter = EnergyMeter(rig.model, rig.data, rig.car)
+    rig.place()
+    before, work = meter.read(), WorkMeter(rig.model, rig.data)
+    rig.car.command(Action(pedal, steering))
+    gained, done = [], []
+    for _ in range(10):
+        random_driving.advance(rig, work.note)
+        gained.append(meter.read() - before)
+        done.append(work.total)
+    assert max(done) > 5.0
+    assert max(gained) > 5.0  # what was done is seen
+    assert max(np.diff(np.array(gained) - done)) < 0.1
+
+
+def test_push_that_no_actuator_gave_is_energy_from_nowhere(monkeypatch):
+    update = Car.update
+
+    def pushed(car: Car) -> None:
+        update(car)
+        car._data.body("car").xfrc_applied[0] += 500.0
+
+    honest = random_driving.drive_randomly(1, duration=3.0)
+    monkeypatch.setattr(Car, "update", pushed)
+    helped = random_driving.drive_randomly(1, duration=3.0)
+    assert honest.largest_gain < random_driving.MOST_GAIN < helped.largest_gain
 
 
 def test_energy_of_a_rolling_car_is_that_of_its_mass_and_wheels(rig):
