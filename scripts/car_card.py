@@ -1,6 +1,7 @@
-"""Write the tables of docs/car.md from what `mjdrive car test` and `mjdrive car compare` have measured.
+"""Write the tables of docs/car.md and docs/cars.md from what `mjdrive car test` and `mjdrive car compare` have measured.
 
-Before: `mjdrive car test --plot --out docs/car` and `mjdrive car compare --out docs/car_compared`.
+Before: `mjdrive car test --plot --out docs/car`, `mjdrive car test --car mkz --quick --out docs/car_mkz` and `mjdrive car
+compare --out docs/car_compared`.
 """
 
 import json
@@ -13,6 +14,8 @@ from mjdrive.manoeuvres.bars import Bar
 
 ROOT = Path(__file__).resolve().parents[1]
 CARD = ROOT / "docs" / "car.md"
+PAGE = ROOT / "docs" / "cars.md"
+MKZ_REPORT = ROOT / "docs" / "car_mkz" / "report.json"
 REPORT = ROOT / "docs" / "car" / "report.json"
 COMPARISON = ROOT / "docs" / "car_compared" / "comparison.json"
 
@@ -23,10 +26,10 @@ def bars_of(report: dict[str, Any]) -> list[Bar]:
     return [Bar(**{name: row[name] for name in names}) for row in report["bars"]]
 
 
-def measured_table() -> str:
-    """Every figure of the report as a table in Markdown."""
+def measured_table(report: Path) -> str:
+    """Every figure of a report as a table in Markdown."""
     rows = ["| figure | measured | bar | where it comes from |", "|---|---|---|---|"]
-    bars = bars_of(json.loads(REPORT.read_text()))
+    bars = bars_of(json.loads(report.read_text()))
     for manoeuvre, group in groupby(bars, key=lambda bar: bar.manoeuvre):
         rows.append(f"| **{manoeuvre}** | | | |")
         rows += [
@@ -50,9 +53,16 @@ def compared_table() -> str:
 
 
 def with_tables(text: str) -> str:
-    """Put the tables between their marks in the card."""
-    for mark, table in (("measured", measured_table()), ("compared", compared_table())):
+    """Put the tables between their marks in a page, those that it has."""
+    tables = {
+        "measured": measured_table(REPORT),
+        "measured mkz": measured_table(MKZ_REPORT),
+        "compared": compared_table(),
+    }
+    for mark, table in tables.items():
         begin, end = f"<!-- {mark}: begin -->\n", f"<!-- {mark}: end -->"
+        if begin not in text:
+            continue
         head, _, rest = text.partition(begin)
         _, _, tail = rest.partition(end)
         text = f"{head}{begin}{table}\n{end}{tail}"
@@ -60,4 +70,5 @@ def with_tables(text: str) -> str:
 
 
 if __name__ == "__main__":
-    CARD.write_text(with_tables(CARD.read_text()))
+    for page in (CARD, PAGE):
+        page.write_text(with_tables(page.read_text()))

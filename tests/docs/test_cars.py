@@ -1,14 +1,18 @@
 """docs/cars.md says what the code does."""
 
+import json
 import re
 from pathlib import Path
 
 import pytest
 
+from mjdrive.cli.car_tables import number
 from mjdrive.vehicle import cars
 from mjdrive.vehicle.car_parts import PARTS
 
-PAGE = (Path(__file__).resolve().parents[2] / "docs/cars.md").read_text()
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = (ROOT / "docs/cars.md").read_text()
+REPORT = json.loads((ROOT / "docs/car_mkz/report.json").read_text())
 
 
 def rows(text: str) -> list[list[str]]:
@@ -64,3 +68,20 @@ def test_card_of_the_mkz_has_the_numbers_of_its_file(row, field, pattern):
     assert found is not None, cells[1]
     expected = getattr(cars.load("mkz").parameters, field)
     assert float(found[1].replace(",", "")) == pytest.approx(expected, abs=1e-5)
+
+
+def test_report_is_of_this_car_and_every_bar_holds():
+    command = "run: mjdrive car test --car mkz --quick --out docs/car_mkz"
+    assert REPORT["car_digest"] == cars.load("mkz").digest, command
+    assert [bar["figure"] for bar in REPORT["bars"] if not bar["holds"]] == []
+
+
+def test_table_of_the_manoeuvres_is_that_report():
+    table = PAGE.partition("<!-- measured mkz: begin -->")[2].partition(
+        "<!-- measured mkz: end -->"
+    )[0]
+    shown = [row for row in rows(table) if not row[0].startswith("**")]
+    assert [row[0] for row in shown] == [bar["figure"] for bar in REPORT["bars"]]
+    for row, bar in zip(shown, REPORT["bars"], strict=True):
+        assert row[1] == number(bar["measured"], bar["unit"]), "run: python scripts/car_card.py"
+        assert row[3] == bar["reason"], "run: python scripts/car_card.py"
