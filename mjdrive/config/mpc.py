@@ -47,7 +47,7 @@ class MpcConfig:
         fallback_solver: Solver to take where casadi lacks a plug-in of the first, or None to refuse.
         max_iterations: Iterations of the solver; a plan that needs more counts as failed [-].
         tolerance: Error of the conditions of optimality at which a plan counts as found [-].
-        late_after: A solve that takes longer than this is counted as late [s].
+        late_after: A plan is late when its decision, from the situation to the plan, took more CPU time than this [s].
         late_plan: What is driven when a plan came late: "plan" takes it all the same, so that the same seed gives the same bytes on
             any load; "pid" leaves the decision to the PID, as a controller in a car would have to.
     """

@@ -5,6 +5,7 @@ coordinates, and solves a nonlinear optimal control problem (`mpc_problem`) for 
 without a plan is made by the PID expert, and counted.
 """
 
+import time
 from typing import NamedTuple
 
 import numpy as np
@@ -49,8 +50,8 @@ class _Plan(NamedTuple):
 class MpcExpert:
     """A `Policy[Situation]`: knows the route and the lights, and a model of its car.
 
-    Its solver is bound by iterations, never by the clock, so the same seed gives the same bytes on any load. A solve that
-    took long is counted (`solves.late`); only with `MpcConfig.late_plan = "pid"` is it met by the PID.
+    Its solver is bound by iterations, never by the clock, so the same seed gives the same bytes on any load. A plan that
+    came late is counted (`solves.late`); only with `MpcConfig.late_plan = "pid"` is it met by the PID.
 
     Attributes:
         config: Weights, limits and solver.
@@ -108,6 +109,7 @@ class MpcExpert:
 
     def act(self, view: Situation) -> Action:
         """Follow the route for the next control interval."""
+        begin = time.thread_time()
         if view.route is not self._route:
             self._take_route(view.route)
         stand_in = self._pid.act(view)
@@ -128,6 +130,9 @@ class MpcExpert:
         self.solves.recoveries += recovers
         self.solves.hard_stops += is_hard_stop and not recovers
         planned = None if recovers or is_hard_stop else self._planned(view, distance)
+        if planned is not None and time.thread_time() - begin > self.config.late_after:
+            self.solves.late += 1
+            planned = planned if self.config.late_plan == "plan" else None
         if planned is None:
             self._plan = None
             planned = self._handover.take_over(stand_in)
@@ -182,8 +187,7 @@ class MpcExpert:
             self._problem.parameters(start, goal),
             self._problem.bounds(start, full_throttle=full_throttle),
         )
-        is_too_late = solution.is_late and self.config.late_plan == "pid"
-        if solution.status is not SolveStatus.SOLVED or is_too_late:
+        if solution.status is not SolveStatus.SOLVED:
             return None
         following = self._problem.state(solution.variables, 1)
         self._plan = _Plan(view.time, solution.variables, following)

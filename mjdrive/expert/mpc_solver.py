@@ -29,14 +29,12 @@ class Solution(NamedTuple):
 
     Attributes:
         status: How the solve ended; only `SOLVED` is a plan.
-        is_late: Whether it took longer than `MpcConfig.late_after`.
         variables: In the order of the problem, shape (X,), mixed units.
         cost: Of the plan [-].
         iterations: Of the solver [-].
     """
 
     status: SolveStatus
-    is_late: bool
     variables: Float[np.ndarray, " X"]
     cost: float
     iterations: int
@@ -220,7 +218,5 @@ class MpcSolver:
             status = SolveStatus.FAILED
         counts = self.counts
         setattr(counts, status.value, getattr(counts, status.value) + 1)
-        is_late = spent > self._config.late_after
-        counts.late += is_late
         counts.times.append(spent)
-        return Solution(status, is_late, variables, float(result["f"]), iterations)
+        return Solution(status, variables, float(result["f"]), iterations)

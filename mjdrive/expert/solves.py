@@ -21,7 +21,7 @@ class SolveCounts:
         failed: Solves that ended without a plan [-].
         recoveries: Decisions that were left to the PID without a solve, because something had pushed the car [-].
         hard_stops: Decisions that were left to the PID, because a light came too late for a smooth plan [-].
-        late: Solves that took longer than `MpcConfig.late_after`, plan or not [-]; hangs on the machine, decides nothing.
+        late: Plans that came late: deciding took longer than `MpcConfig.late_after` [-]; hangs on the machine.
         times: CPU time of each solve [s].
     """
 
@@ -65,7 +65,7 @@ class SolveWatch:
 
     @property
     def late(self) -> int:
-        """Solves that took long [-]; another figure on another machine, so no file holds it."""
+        """Plans that came late [-]; another figure on another machine, so no file holds it."""
         return self._counts().late - self._late_before
 
     def metadata(self) -> dict[str, str]:

@@ -210,7 +210,7 @@ def test_handover_to_the_pid_begins_where_the_plan_was():
     pid.act(here)
     own = pid.act(later).steering
     expert._solver.solve = lambda *_: mpc_solver.Solution(
-        mpc_solver.SolveStatus.FAILED, False, np.zeros(0), np.nan, 0
+        mpc_solver.SolveStatus.FAILED, np.zeros(0), np.nan, 0
     )
     taken = expert.act(later).steering
     assert min(planned.steering, own) < taken < max(planned.steering, own)
