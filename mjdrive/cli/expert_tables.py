@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from mjdrive.cli.solving import solve_rows
 from mjdrive.evaluation.expert_bars import ExpertBar, mean_cpu_ms, mean_ms, rms, slow_share
 from mjdrive.evaluation.expert_drives import Drive
+from mjdrive.evaluation.steering_bound import Bound
 
 
 def laps_table(drives: Sequence[Drive]) -> str:
@@ -132,6 +133,26 @@ def bars_table(bars: Iterable[ExpertBar]) -> str:
         for it in bars
     ]
     return markdown(("MPC in", "figure", "measured", "at most", "held"), rows)
+
+
+def bounds_table(bounds: Sequence[Bound]) -> str:
+    """How smoothly the PID steers, and how smoothly its routes can be steered, a line a route."""
+    cases = bounds[0].least[1::2]
+    headings = ["route", "PID [1/s]", "half of it", "least at its lane error"]
+    headings += [f"least at {it.allowance:g} m, pace {it.pace:g}" for it in cases]
+    headings += [f"time at pace {it.pace:g} [s]" for it in cases]
+    rows = [
+        [
+            bound.route,
+            f"{bound.whiteness:.3f} ({bound.lane_error:.2f} m)",
+            f"{0.5 * bound.whiteness:.3f}",
+            f"{bound.least[0].whiteness:.3f}",
+            *(f"{it.whiteness:.3f}" for it in bound.least[1::2]),
+            *(f"{it.duration:.0f}" for it in bound.least[1::2]),
+        ]
+        for bound in bounds
+    ]
+    return markdown(headings, rows)
 
 
 def markdown(headings: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
