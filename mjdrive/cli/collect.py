@@ -1,6 +1,7 @@
 """`mjdrive collect`: let an expert drive the routes of a town, or take random turns."""
 
 from pathlib import Path
+from typing import Literal
 
 import rich_click as click
 
@@ -90,6 +91,7 @@ def collect(
     expert: str,
     solver: str | None,
     fallback_solver: str | None,
+    late_plan: Literal["plan", "pid"] | None,
     noise: float | None,
     throttle_noise: float | None,
     car_name: str,
@@ -136,12 +138,14 @@ def collect(
     )
     if gains is not None:
         settings = applied(settings, gains, car)
-    settings = presets.with_solver(settings, solver, fallback_solver)
+    settings = presets.with_solver(
+        settings, presets.SolverChoice(solver, fallback_solver, late_plan)
+    )
     routes = lay_routes(town, waypoints, settings=settings)
     planned = plan(town, routes, settings=settings, seed=seed)
     executor = chosen_executor(jobs, backend, address)
     folder = out or Path("data") / town.name
-    late_solves: list[int] = []
+    late_plans: list[int] = []
     with ended_by_sigterm(), episode_bars(town.name, total=len(planned)) as report:
         collect_routes(
             town,
@@ -154,7 +158,7 @@ def collect(
             mix=mix,
             overwrite=overwrite,
             report=report,
-            on_late_solves=late_solves.append,
+            on_late_plans=late_plans.append,
         )
     manifest, driven = dataset.read_dataset(folder)
     drives = dict(zip((entry.name for entry in manifest.episodes), driven, strict=True))
@@ -164,7 +168,11 @@ def collect(
         {
             "folder": folder,
             **rows(manifest, driven, town),
-            **(late_row(sum(late_solves), settings.mpc.late_after) if expert == "mpc" else {}),
+            **(
+                late_row(sum(late_plans), settings.mpc.late_after, settings.mpc.late_plan)
+                if expert == "mpc"
+                else {}
+            ),
             "picture": folder / "overview.png",
         },
         next_command="mjdrive train da-ibc" + ("" if out is None else f" --data {folder}"),

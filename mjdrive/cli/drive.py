@@ -1,6 +1,7 @@
 """`mjdrive drive`: let a policy drive freely through a town."""
 
 from pathlib import Path
+from typing import Literal
 
 import rich_click as click
 
@@ -92,6 +93,7 @@ def drive(
     gains: Path | None,
     solver: str | None,
     fallback_solver: str | None,
+    late_plan: Literal["plan", "pid"] | None,
     seed: int,
     num_episodes: int | None,
     jobs: Jobs,
@@ -108,6 +110,7 @@ def drive(
     import datetime
 
     from mjdrive.cli.driver import find_driver
+    from mjdrive.episodes.presets import SolverChoice
     from mjdrive.evaluation import report
     from mjdrive.town import library
     from mjdrive.vehicle import cars
@@ -119,7 +122,7 @@ def drive(
     )
     if gains is not None:
         driver = driver.tuned(gains, car)
-    driver = driver.solved_by(solver, fallback_solver)
+    driver = driver.solved_by(SolverChoice(solver, fallback_solver, late_plan))
     folder = out or report.new_folder(DRIVES, datetime.datetime.now())
     if is_filmed:
         _require_one(num_episodes)

@@ -62,34 +62,33 @@ class Driver:
             )
         return _expert_driver(applied(self.expert, gains, car))
 
-    def solved_by(self, solver: str | None, fallback_solver: str | None) -> "Driver":
-        """The same expert with another solver, if one is named.
+    def solved_by(self, choice: presets.SolverChoice) -> "Driver":
+        """The same expert with another solver, or another answer to late plans, if one is named.
 
         Raises:
             ConfigError: If the driver solves nothing.
         """
-        named = [name for name in (solver, fallback_solver) if name is not None]
-        if not named:
+        if not choice.options:
             return self
         if self.expert is None:
             raise ConfigError(
-                f"{', '.join(named)} solves nothing for the trained policy {self.name}. Leave --solver and "
-                f"--fallback-solver out, or take --policy mpc."
+                f"{choice.options} has no effect on the trained policy {self.name}, which solves nothing. "
+                f"Leave it out, or take --policy mpc."
             )
-        return _expert_driver(presets.with_solver(self.expert, solver, fallback_solver))
+        return _expert_driver(presets.with_solver(self.expert, choice))
 
     def solve_notes(self, episode: Episode, late: int) -> dict[str, str]:
         """Sum up the solves of a drive for people; nothing if the driver solves nothing.
 
         Args:
             episode: The drive.
-            late: Solves that took long [-].
+            late: Plans that came late [-].
         """
         if self.expert is None or SOLVER not in episode.metadata:
             return {}
         solves = json.loads(episode.metadata[SOLVES])
         rows = solve_rows([episode.metadata[SOLVER]], [solves])
-        return rows | late_row(late, self.expert.mpc.late_after)
+        return rows | late_row(late, self.expert.mpc.late_after, self.expert.mpc.late_plan)
 
     def metadata(self, town: Town, car: CarModel, num_steps: int) -> dict[str, str]:
         """Versions, digests and settings that decide a drive, all but its seed.
@@ -122,7 +121,7 @@ class Driver:
         num_steps: int,
         seed: int,
         on_step: Callable[[int], None],
-        on_late_solves: Callable[[int], None] | None = None,
+        on_late_plans: Callable[[int], None] | None = None,
     ) -> Episode:
         """Drive freely, from a random place.
 
@@ -131,7 +130,7 @@ class Driver:
             num_steps: Control steps [-].
             seed: Same seed, same drive.
             on_step: Told the number of control steps done.
-            on_late_solves: Told at the end how many solves of an expert took long on this machine.
+            on_late_plans: Told at the end how many plans of an expert came late on this machine.
         """
         metadata = self.metadata(simulation.town, simulation.car_model, num_steps)
         if self.pilot is None:
@@ -142,7 +141,7 @@ class Driver:
                 seed=seed,
                 config=self.expert,
                 on_step=on_step,
-                on_late_solves=on_late_solves,
+                on_late_plans=on_late_plans,
                 metadata=metadata,
             )
         return driving.drive(

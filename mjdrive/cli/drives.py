@@ -53,7 +53,7 @@ def drive_episodes(
     require_same_drives(folder, description)
     planned = plan_drives(num_episodes, seed=seed)
     work = Driving(driver, town, car, num_steps, versions.all_versions())
-    late_solves: list[int] = []
+    late_plans: list[int] = []
     name = f"{driver.name} in {town.name}"
     with ended_by_sigterm(), episode_bars(name, total=num_episodes) as progress:
         drives = make_drives(
@@ -63,7 +63,7 @@ def drive_episodes(
             description=description,
             executor=executor,
             report_progress=progress,
-            on_late_solves=late_solves.append,
+            on_late_plans=late_plans.append,
         )
     summary = spread.summarise_drives(drives, town)
     shown = {
@@ -73,7 +73,8 @@ def drive_episodes(
     draw_dataset(shown, town, folder / "trajectories.png")
     spread.draw_spread(drives, folder / "spread.png")
     config.write_json(summary, folder / report.SUMMARY)
-    late = {} if driver.expert is None else late_row(sum(late_solves), driver.expert.mpc.late_after)
+    mpc = None if driver.expert is None else driver.expert.mpc
+    late = {} if mpc is None else late_row(sum(late_plans), mpc.late_after, mpc.late_plan)
     closing_table(
         f"{name}, {num_episodes} drives of {num_steps:,} steps, seed {seed}",
         {

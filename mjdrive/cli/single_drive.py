@@ -41,7 +41,7 @@ def drive_once(
     if is_filmed:
         filming.require_cameras()
     report.require_new(folder)
-    late_solves: list[int] = []
+    late_plans: list[int] = []
     with progress_bars() as bars:
         task = bars.add_task(f"{driver.name} in {town.name}", total=num_steps)
         episode = driver.drive(
@@ -49,7 +49,7 @@ def drive_once(
             num_steps=num_steps,
             seed=seed,
             on_step=lambda done: bars.update(task, completed=done),
-            on_late_solves=late_solves.append,
+            on_late_plans=late_plans.append,
         )
     summary = report.write_drive(episode, town, folder)
     closing_table(
@@ -57,7 +57,7 @@ def drive_once(
         {
             "car": driver.car_note(car),
             **_figures(summary),
-            **driver.solve_notes(episode, sum(late_solves)),
+            **driver.solve_notes(episode, sum(late_plans)),
             "path": folder / "trajectory.png",
             "actions": folder / "actions.png",
             **(_filmed(episode, driver, folder, car) if is_filmed else {}),

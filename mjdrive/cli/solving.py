@@ -18,7 +18,13 @@ _WORDS = {
 
 
 def solver_options(command: Command) -> Command:
-    """Give a command --solver and --fallback-solver."""
+    """Give a command --solver, --fallback-solver and --late-plan."""
+    command = click.option(
+        "--late-plan",
+        type=click.Choice(["plan", "pid"]),
+        help="What the MPC expert drives when deciding took over 50 ms of CPU time: its plan all the same, or what the PID "
+        "wants, and then the drive hangs on how fast the machine is. [default: plan]",
+    )(command)
     command = click.option(
         "--fallback-solver",
         metavar="NAME",
@@ -52,11 +58,15 @@ def solve_rows(solvers: Iterable[str], solves: Iterable[Mapping[str, int]]) -> d
     return {"solver": ", ".join(names), "solves": ", ".join(told)}
 
 
-def late_row(late: int, late_after: float) -> dict[str, str]:
-    """Say how many solves took long, which hangs on the machine.
+def late_row(late: int, late_after: float, late_plan: str) -> dict[str, str]:
+    """Say how many plans came late, which hangs on the machine.
 
     Args:
         late: Their number [-].
-        late_after: What is long [s].
+        late_after: What is late [s].
+        late_plan: What was driven then, "plan" or "pid".
     """
-    return {"late solves": f"{late:,} took over {1000 * late_after:g} ms of CPU time here"}
+    met = ", and were left to the PID" if late_plan == "pid" else ""
+    return {
+        "late plans": f"{late:,} decisions took over {1000 * late_after:g} ms of CPU time here{met}"
+    }

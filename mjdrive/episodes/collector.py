@@ -34,12 +34,12 @@ class Driven(NamedTuple):
     Attributes:
         entry: Its entry in the manifest.
         content: Its file, byte for byte.
-        late_solves: Solves of the expert that took long on this machine [-].
+        late_plans: Plans of the expert that came late on this machine [-].
     """
 
     entry: EpisodeEntry
     content: bytes
-    late_solves: int
+    late_plans: int
 
 
 @dataclass(frozen=True, eq=False)

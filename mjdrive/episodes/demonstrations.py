@@ -40,7 +40,7 @@ def collect(
     mix: bool = False,
     overwrite: bool = False,
     report: Report = lambda name, done, expected: None,
-    on_late_solves: Callable[[int], None] = lambda count: None,
+    on_late_plans: Callable[[int], None] = lambda count: None,
 ) -> Manifest:
     """Let an expert drive the routes of a town, or take random turns, into a folder.
 
@@ -57,7 +57,7 @@ def collect(
         mix: Whether to add to a data set of the same town that was collected in another way.
         overwrite: Whether to replace a data set that is there, once the first episode has been driven.
         report: Told how far the collection is.
-        on_late_solves: Told of each episode how many solves of its expert took long on this machine.
+        on_late_plans: Told of each episode how many plans of its expert came late on this machine.
 
     Returns:
         The description of the finished data set.
@@ -98,7 +98,7 @@ def collect(
         return manifest
     with closing(_driven(work, missing, executor or SerialExecutor(), report)) as driven:
         is_described = False
-        for entry, content, late_solves in driven:
+        for entry, content, late_plans in driven:
             if not is_described:
                 if overwrite:
                     dataset.remove(folder)
@@ -109,7 +109,7 @@ def collect(
             finished[entry.name] = entry
             manifest = _keep(manifest, number, planned, finished, folder)
             report(entry.name, entry.steps, entry.steps)
-            on_late_solves(late_solves)
+            on_late_plans(late_plans)
     return manifest
 
 

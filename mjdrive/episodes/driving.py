@@ -60,7 +60,7 @@ def drive_expert(
     seed: int,
     config: CollectConfig | None = None,
     on_step: Callable[[int], None] | None = None,
-    on_late_solves: Callable[[int], None] | None = None,
+    on_late_plans: Callable[[int], None] | None = None,
     choose: Choose | None = None,
     walk: int = 0,
     metadata: Mapping[str, str] | None = None,
@@ -75,7 +75,7 @@ def drive_expert(
         seed: Decides start, lights and turns.
         config: Which expert drives, and its settings; the PID expert if None.
         on_step: Told the number of control steps done.
-        on_late_solves: Told at the end how many solves of the expert took long on this machine.
+        on_late_plans: Told at the end how many plans of the expert came late on this machine.
         choose: Chooses among the ways on instead of chance.
         walk: Another number, other turns from the same start and under the same lights [-].
         metadata: Versions, digests and settings to keep with the episode.
@@ -112,8 +112,8 @@ def drive_expert(
         on_step=on_step,
         metadata=metadata,
     )
-    if on_late_solves is not None:
-        on_late_solves(solves.late)
+    if on_late_plans is not None:
+        on_late_plans(solves.late)
     return dataclasses.replace(episode, metadata={**episode.metadata, **solves.metadata()})
 
 

@@ -4,8 +4,10 @@ import dataclasses
 import math
 import re
 from collections.abc import Iterable
+from typing import NamedTuple
 
 from mjdrive.config import CollectConfig, DisturbanceConfig, require
+from mjdrive.config.mpc import LatePlan
 from mjdrive.errors import UnknownNameError
 from mjdrive.expert import experts
 
@@ -72,33 +74,45 @@ def chosen(
     return config if throttle_noise is None else with_throttle_noise(config, throttle_noise)
 
 
-def with_solver(
-    config: CollectConfig, solver: str | None, fallback_solver: str | None
-) -> CollectConfig:
-    """Choose who solves for the MPC expert; what is None stays as it is.
+class SolverChoice(NamedTuple):
+    """What is said of who solves for the MPC expert; what is None stays as it is.
+
+    Attributes:
+        solver: Name of a solver, one of `mjdrive.expert.mpc_solver.SOLVERS`.
+        fallback_solver: The one to take where casadi lacks the first.
+        late_plan: What is driven when a plan came late, "plan" or "pid".
+    """
+
+    solver: str | None = None
+    fallback_solver: str | None = None
+    late_plan: LatePlan | None = None
+
+    @property
+    def options(self) -> str:
+        """What is said, as options of a command; empty if nothing is."""
+        said = {name: value for name, value in self._asdict().items() if value is not None}
+        return " ".join(f"--{name.replace('_', '-')} {value}" for name, value in said.items())
+
+
+def with_solver(config: CollectConfig, choice: SolverChoice) -> CollectConfig:
+    """Choose who solves for the MPC expert, and what a late plan means.
 
     Args:
         config: Settings to change.
-        solver: Name of a solver, one of `mjdrive.expert.mpc_solver.SOLVERS`.
-        fallback_solver: The one to take where casadi lacks the first.
+        choice: What is said of it.
 
     Raises:
         ConfigError: If another expert drives.
     """
-    named = [name for name in (solver, fallback_solver) if name is not None]
-    if not named:
+    if not choice.options:
         return config
     require(
         config.expert == "mpc",
-        f"{', '.join(named)} solves nothing for the expert {config.expert}. Expected the expert mpc; choose that, "
-        f"or leave --solver and --fallback-solver out.",
+        f"{choice.options} has no effect on the expert {config.expert}, which solves nothing. "
+        f"Expected the expert mpc; choose that, or leave it out.",
     )
-    mpc = dataclasses.replace(
-        config.mpc,
-        solver=config.mpc.solver if solver is None else solver,
-        fallback_solver=config.mpc.fallback_solver if fallback_solver is None else fallback_solver,
-    )
-    return dataclasses.replace(config, mpc=mpc)
+    said = {name: value for name, value in choice._asdict().items() if value is not None}
+    return dataclasses.replace(config, mpc=dataclasses.replace(config.mpc, **said))
 
 
 def route_names(text: str, known: Iterable[str]) -> tuple[str, ...]:

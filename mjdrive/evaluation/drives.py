@@ -63,7 +63,7 @@ class Drives(Protocol):
         num_steps: int,
         seed: int,
         on_step: Tell,
-        on_late_solves: Callable[[int], None] | None = None,
+        on_late_plans: Callable[[int], None] | None = None,
     ) -> Episode:
         """Drive from a random place."""
 
@@ -73,11 +73,11 @@ class Driven(NamedTuple):
 
     Attributes:
         files: Content of the files of its folder by name.
-        late_solves: Solves of an expert that took long where it was made [-].
+        late_plans: Plans of an expert that came late where it was made [-].
     """
 
     files: Mapping[str, bytes]
-    late_solves: int
+    late_plans: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,19 +111,19 @@ class Driving:
         return partial(self._drive, Simulation(self.town, car=self.car))
 
     def _drive(self, simulation: Simulation, planned: PlannedDrive, tell: Tell) -> Driven:
-        late_solves: list[int] = []
+        late_plans: list[int] = []
         episode = self.driver.drive(
             simulation,
             num_steps=self.num_steps,
             seed=planned.seed,
             on_step=tell,
-            on_late_solves=late_solves.append,
+            on_late_plans=late_plans.append,
         )
         with tempfile.TemporaryDirectory() as place:
             folder = Path(place, planned.name)
             report.write_drive(episode, self.town, folder)
             files = {path.name: path.read_bytes() for path in sorted(folder.iterdir())}
-        return Driven(files, sum(late_solves))
+        return Driven(files, sum(late_plans))
 
 
 def make_drives(
@@ -134,7 +134,7 @@ def make_drives(
     description: Mapping[str, str],
     executor: Executor,
     report_progress: Callable[[str, int, int], None] = lambda name, done, expected: None,
-    on_late_solves: Callable[[int], None] = lambda count: None,
+    on_late_plans: Callable[[int], None] = lambda count: None,
 ) -> list[DriveSummary]:
     """Make the drives that are missing in a folder.
 
@@ -145,7 +145,7 @@ def make_drives(
         description: What the drives have in common; drives of another description are refused.
         executor: Where the drives are made; the files do not depend on it.
         report_progress: Told name, steps done and steps in all of a drive.
-        on_late_solves: Told of each drive how many solves of an expert took long.
+        on_late_plans: Told of each drive how many plans of an expert came late on this machine.
 
     Returns:
         The figures of each drive, as planned.
@@ -177,7 +177,7 @@ def make_drives(
             assert summary is not None, "a drive was kept without its figures"
             finished[drive.name] = summary
             report_progress(drive.name, work.num_steps, work.num_steps)
-            on_late_solves(driven.late_solves)
+            on_late_plans(driven.late_plans)
     return [finished[drive.name] for drive in planned]
 
 

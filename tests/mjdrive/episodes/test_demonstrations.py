@@ -243,7 +243,7 @@ def test_overwriting_the_same_data_set_drives_it_again(
             settings=TWICE,
             seed=0,
             overwrite=True,
-            on_late_solves=told.append,
+            on_late_plans=told.append,
         )
     assert told == [0] * 4
 

@@ -34,7 +34,7 @@ class Glider:
     def drive(self, simulation: object, *, seed: int, num_steps: int, **told: Any) -> Episode:
         self.driven.append(seed)
         told["on_step"](num_steps)
-        told["on_late_solves"](1)
+        told["on_late_plans"](1)
         return self._make_drive(np.linspace(0, 10 + seed % 50, num_steps))
 
 
@@ -89,7 +89,7 @@ def test_each_drive_has_a_folder_and_is_told(
         tmp_path / "drives",
         plan_drives(2, seed=0),
         report_progress=lambda *words: told.append(words),
-        on_late_solves=late.append,
+        on_late_plans=late.append,
     )
     assert {path.name for path in (tmp_path / "drives/episode-001").iterdir()} == {
         "episode.hdf5",
