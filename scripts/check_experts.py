@@ -18,7 +18,13 @@ import click
 
 from mjdrive.benchmarks import machine
 from mjdrive.cli.console import progress_bars
-from mjdrive.cli.expert_tables import bars_table, comfort_table, laps_table, times_table
+from mjdrive.cli.expert_tables import (
+    bars_table,
+    comfort_table,
+    laps_table,
+    provenance,
+    times_table,
+)
 from mjdrive.cli.main import Script
 from mjdrive.cli.options import Jobs, chosen_executor, executor_options
 from mjdrive.config import read_json
@@ -103,11 +109,16 @@ def told(checks: Checks) -> bool:
     """Print the tables and whatever is not as it should be; whether all is."""
     found = bars(checks.drives)
     tables = [make(checks.drives) for make in (laps_table, comfort_table, times_table)]
-    print(*tables, bars_table(found), sep="\n\n")
-    flaws = [f"{it.job.name}: {it.flaw}" for it in checks.drives if it.flaw]
-    flaws += [str(it) for it in found if not it.holds and not it.is_open]
-    print("\n".join(["", *flaws]) if flaws else "\nEverything is as it should be.")
-    return not flaws
+    print(provenance(checks), *tables, bars_table(found), "", sep="\n\n")
+    failures = [f"{it.job.name}: {it.flaw}" for it in checks.drives if it.flaw]
+    failures += [str(it) for it in found if not it.holds and not it.is_open]
+    for it in found:
+        if it.is_open and not it.holds:
+            print(f"Known, and not counted: {it}.")
+    if {it.expert for it in checks.drives} == {"mpc"}:
+        print("Smoothness was not compared: add --expert pid.")
+    print("\n".join(failures or ["Everything else is as it should be."]))
+    return not failures
 
 
 if __name__ == "__main__":

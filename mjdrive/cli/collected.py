@@ -19,6 +19,9 @@ PAPER_TURNS = {Move.LEFT: 12, Move.RIGHT: 21, Move.STRAIGHT: 14}
 
 PAPER_ROUTES = 10
 
+LAP, LAP_MARGIN = 2100.0, 170.0
+"""Time that the PID should take for these routes, and how far from it is near enough [s]."""
+
 
 def rows(manifest: Manifest, episodes: Sequence[Episode], town: Town) -> dict[str, str]:
     """Sum up a data set for the closing table.
@@ -32,9 +35,9 @@ def rows(manifest: Manifest, episodes: Sequence[Episode], town: Town) -> dict[st
     infractions: Counter[str] = Counter()
     for entry in manifest.episodes:
         infractions.update(entry.infractions)
-    found = {
+    return {
         "episodes": _episodes(manifest),
-        "samples": f"{samples:,} ({samples / 600:.0f} min at 10 Hz)",
+        "samples": f"{samples:,} ({samples / 10:,.0f} s at 10 Hz)",
         "turns": _turns(episodes, town),
         "the paper's": _beside_the_paper(manifest, samples),
         "infractions": ", ".join(f"{count} {kind}" for kind, count in sorted(infractions.items()))
@@ -43,14 +46,18 @@ def rows(manifest: Manifest, episodes: Sequence[Episode], town: Town) -> dict[st
             (entry.solver for entry in manifest.episodes),
             (entry.solves for entry in manifest.episodes),
         ),
+        "recovered": _recovered(manifest),
     }
+
+
+def _recovered(manifest: Manifest) -> str:
+    """How often the expert found back after a push."""
+    if all(it.settings.get("disturbance") is None for it in manifest.collections):
+        return "none: nothing was disturbed"
     deviations = sum(entry.deviations for entry in manifest.episodes)
-    if deviations:
-        recovered = sum(entry.recovered for entry in manifest.episodes)
-        found["recovered"] = (
-            f"{recovered} of {deviations} deviations after a push ({100 * recovered / deviations:.0f} %)"
-        )
-    return found
+    recovered = sum(entry.recovered for entry in manifest.episodes)
+    share = f" ({100 * recovered / deviations:.0f} %)" if deviations else ""
+    return f"{recovered} of {deviations} deviations after a push{share}"
 
 
 def _episodes(manifest: Manifest) -> str:
@@ -78,7 +85,11 @@ def _beside_the_paper(manifest: Manifest, samples: int) -> str:
     differences = _differences(manifest)
     if differences:
         return f"{theirs} (not to be compared: this is {', '.join(differences)})"
-    return f"{theirs} (here {100 * (samples / PAPER_SAMPLES - 1):+.1f} % samples)"
+    verdict = "within" if abs(samples / 10 - LAP) <= LAP_MARGIN else "not within"
+    return (
+        f"{theirs} (here {100 * (samples / PAPER_SAMPLES - 1):+.1f} % samples; "
+        f"{samples / 10:,.0f} s are {verdict} {LAP:,.0f} ± {LAP_MARGIN:.0f} s)"
+    )
 
 
 def _differences(manifest: Manifest) -> list[str]:

@@ -1,12 +1,42 @@
 """What drives of experts were like, as tables in Markdown: for the terminal and for docs/experts.md."""
 
 import statistics
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
 from mjdrive.cli.solving import solve_rows
 from mjdrive.evaluation.expert_bars import ExpertBar, mean_cpu_ms, mean_ms, rms, slow_share
-from mjdrive.evaluation.expert_drives import Drive
+from mjdrive.evaluation.expert_drives import Checks, Drive
 from mjdrive.evaluation.steering_bound import Bound
+
+
+def provenance(checks: Checks) -> str:
+    """What was driven, where and with what, in a sentence."""
+    drives, machine = checks.drives, checks.machine
+    versions = machine["versions"]
+    packages = ", ".join(f"{name} {versions[name]}" for name in ("mjdrive", "mujoco", "casadi"))
+    seeds = ", ".join(
+        f"{sum(it.expert == expert for it in drives)} by the {expert.upper()} "
+        f"(light seeds {_seeds(it for it in drives if it.expert == expert)})"
+        for expert in dict.fromkeys(it.expert for it in drives)
+    )
+    return (
+        f"{len(drives)} drives: {seeds}. Driven on {machine['num_cores']} cores of {machine['processor']} at a load of "
+        f"{machine['load']:g}, with {packages} and code {checks.code[:12]}."
+    )
+
+
+def _seeds(drives: Iterable[Drive]) -> str:
+    """Light seeds, and which of them not all routes were driven under."""
+    counts = Counter(it.seed for it in drives)
+    most = max(counts.values())
+    whole = ", ".join(str(seed) for seed in sorted(counts) if counts[seed] == most)
+    part = "".join(
+        f"; of {seed} {counts[seed]} of {most} routes"
+        for seed in sorted(counts)
+        if counts[seed] < most
+    )
+    return whole + part
 
 
 def laps_table(drives: Sequence[Drive]) -> str:

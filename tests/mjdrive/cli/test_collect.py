@@ -18,6 +18,7 @@ from mjdrive.cli import collected
 from mjdrive.cli.main import main
 from mjdrive.config import CollectConfig, DisturbanceConfig
 from mjdrive.datatypes import Episode, Town
+from mjdrive.episodes import dataset
 from mjdrive.episodes.demonstrations import described
 from mjdrive.episodes.manifest import Collection, EpisodeEntry, Manifest
 from mjdrive.town import library, routing
@@ -143,11 +144,53 @@ TEN = tuple(f"route{number}-0" for number in range(10))
 
 def test_papers_own_experiment_is_compared_sample_by_sample(town01: Town) -> None:
     rows = collected.rows(manifest(town01, PAPER, names=TEN), [], town01)
-    assert rows["samples"] == "21,290 (35 min at 10 Hz)"
+    assert rows["samples"] == "21,290 (2,129 s at 10 Hz)"
     assert rows["the paper's"] == (
-        "21,287 samples; 12 left, 21 right, 14 straight (here +0.0 % samples)"
+        "21,287 samples; 12 left, 21 right, 14 straight "
+        "(here +0.0 % samples; 2,129 s are within 2,100 ± 170 s)"
     )
-    assert rows["recovered"] == "30 of 40 deviations after a push (75 %)"
+    assert rows["recovered"] == "none: nothing was disturbed"
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(900)  # 22,000 steps of physics
+def test_papers_own_experiment_takes_as_long_and_turns_as_often(tmp_path: Path) -> None:
+    collecting = start("--town", "town01", "--preset", "paper", "--out", "paper", cwd=tmp_path)
+    said, complaint = collecting.communicate()
+    assert collecting.returncode == 0, complaint
+    steps = sum(entry.steps for entry in dataset.read_manifest(tmp_path / "paper").episodes)
+    assert abs(0.1 * steps - collected.LAP) <= collected.LAP_MARGIN
+    words = " ".join(said.replace("│", " ").split())
+    assert "turns 12 left, 21 right, 14 straight" in words
+    assert "within 2,100 ± 170 s" in words
+    assert "not within" not in words
+
+
+def test_lap_that_takes_too_long_is_said_to(town01: Town) -> None:
+    ten = manifest(town01, PAPER, names=TEN)
+    slow = tuple(dataclasses.replace(entry, steps=2271) for entry in ten.episodes)
+    rows = collected.rows(dataclasses.replace(ten, episodes=slow), [], town01)
+    assert "2,271 s are not within 2,100 ± 170 s" in rows["the paper's"]
+
+
+@pytest.mark.parametrize(
+    ("deviations", "told"),
+    [
+        (4, "30 of 40 deviations after a push (75 %)"),
+        (0, "0 of 0 deviations after a push"),
+    ],
+)
+def test_recoveries_are_told_even_if_nothing_was_to_recover_from(
+    deviations: int, told: str, town01: Town
+) -> None:
+    ten = manifest(town01, CollectConfig(), names=TEN)
+    recovered = min(deviations, 3)
+    entries = tuple(
+        dataclasses.replace(entry, deviations=deviations, recovered=recovered)
+        for entry in ten.episodes
+    )
+    rows = collected.rows(dataclasses.replace(ten, episodes=entries), [], town01)
+    assert rows["recovered"] == told
 
 
 @pytest.mark.parametrize(
