@@ -28,7 +28,7 @@ from mjdrive.cli.expert_tables import (
 from mjdrive.cli.main import Script
 from mjdrive.cli.options import Jobs, chosen_executor, executor_options
 from mjdrive.config import read_json
-from mjdrive.evaluation.expert_bars import bars
+from mjdrive.evaluation.expert_bars import Clock, bars
 from mjdrive.evaluation.expert_checks import Checking
 from mjdrive.evaluation.expert_drives import Checks, Job
 from mjdrive.expert import experts
@@ -43,6 +43,13 @@ from mjdrive.versions import code_digest
 @click.option("--town", "towns", multiple=True, default=("town01", "town02"), show_default=True)
 @click.option("--car", default="default", show_default=True)
 @click.option("--seeds", "num_seeds", default=10, show_default=True, help="Light seeds 0, 1, ...")
+@click.option(
+    "--clock",
+    type=click.Choice(["wall", "cpu"]),
+    default="wall",
+    show_default=True,
+    help="What decisions may take by: the clock, or on a busy machine CPU time alone.",
+)
 @executor_options
 @click.option("--out", type=click.Path(path_type=Path), help="JSON file for every drive.")
 def main(
@@ -51,6 +58,7 @@ def main(
     towns: tuple[str, ...],
     car: str,
     num_seeds: int,
+    clock: Clock,
     jobs: Jobs,
     backend: str,
     address: str | None,
@@ -78,7 +86,8 @@ def main(
             checks = dataclasses.replace(checks, drives=drives)
             if out is not None:
                 write_atomically(out, checks.to_text().encode())
-    sys.exit(not told(dataclasses.replace(checks, drives=tuple(found[job] for job in plan))))
+    wanted = tuple(found[job] for job in plan)
+    sys.exit(not told(dataclasses.replace(checks, drives=wanted), clock))
 
 
 def made_with(car: str, towns: tuple[str, ...]) -> Checks:
@@ -105,9 +114,9 @@ def going_on_with(out: Path | None, here: Checks) -> Checks:
     return here
 
 
-def told(checks: Checks) -> bool:
+def told(checks: Checks, clock: Clock) -> bool:
     """Print the tables and whatever is not as it should be; whether all is."""
-    found = bars(checks.drives)
+    found = bars(checks.drives, clock=clock)
     tables = [make(checks.drives) for make in (laps_table, comfort_table, times_table)]
     print(provenance(checks), *tables, bars_table(found), "", sep="\n\n")
     failures = [f"{it.job.name}: {it.flaw}" for it in checks.drives if it.flaw]
