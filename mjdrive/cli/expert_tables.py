@@ -9,6 +9,9 @@ from mjdrive.evaluation.expert_bars import ExpertBar, mean_cpu_ms, mean_ms, rms,
 from mjdrive.evaluation.expert_drives import Checks, Drive
 from mjdrive.evaluation.steering_bound import Bound
 
+NUM_SEEDS = 10
+"""Light seeds under which an expert should be checked [-]."""
+
 
 def provenance(checks: Checks) -> str:
     """What was driven, where and with what, in a sentence."""
@@ -22,8 +25,17 @@ def provenance(checks: Checks) -> str:
     )
     return (
         f"{len(drives)} drives: {seeds}. Driven on {machine['num_cores']} cores of {machine['processor']} at a load of "
-        f"{machine['load']:g}, with {packages} and code {checks.code[:12]}."
+        f"{machine['load']:g}, with {packages} and code {checks.code[:12]}.{_to_come(drives)}"
     )
+
+
+def _to_come(drives: Sequence[Drive]) -> str:
+    """Say it if not all light seeds were driven yet."""
+    counts = Counter((it.expert, it.town, it.route) for it in drives)
+    fewest = min(counts.values(), default=0)
+    if fewest >= NUM_SEEDS:
+        return ""
+    return f" **{NUM_SEEDS} light seeds are asked for: no route has fewer than {fewest} so far.**"
 
 
 def _seeds(drives: Iterable[Drive]) -> str:
@@ -32,7 +44,7 @@ def _seeds(drives: Iterable[Drive]) -> str:
     most = max(counts.values())
     whole = ", ".join(str(seed) for seed in sorted(counts) if counts[seed] == most)
     part = "".join(
-        f"; of {seed} {counts[seed]} of {most} routes"
+        f"; seed {seed} on {counts[seed]} of {most} routes"
         for seed in sorted(counts)
         if counts[seed] < most
     )
