@@ -100,9 +100,10 @@ def test_what_is_driven_is_kept_as_a_demonstration(bench: Any) -> None:
 def test_what_is_dropped_leaves_nothing(bench: Any) -> None:
     bench.take_the_wheel()
     before = demonstrations(bench)
-    bench.wait(lambda: bench.watcher.state["recorded"] > 3, "some steps")
+    # So many that a busy machine has seconds to see that there are fewer.
+    bench.wait(lambda: bench.watcher.state["recorded"] > 40, "some steps")
     bench.page.keyboard.press("Delete")
-    bench.wait(lambda: bench.watcher.state["recorded"] < 3, "the recording to begin anew")
+    bench.wait(lambda: bench.watcher.state["recorded"] < 40, "the recording to begin anew")
     assert demonstrations(bench) == before
 
 
