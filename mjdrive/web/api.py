@@ -8,7 +8,7 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 
-from mjdrive.datatypes import Episode
+from mjdrive.datatypes import Episode, Town
 from mjdrive.errors import MjdriveError, UnknownNameError
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import library
@@ -69,7 +69,7 @@ class Api:
         session = self._simulator.session
         name = request.query_params.get("town", session.choice.town)
         if name != session.choice.town:
-            return await _binary(lambda: _scene_of(name))
+            return await _binary(lambda: _scene(name))
         tag = f'"{session.simulation.town.digest[:16]}-{wire.VERSION}"'
         headers = {"etag": tag, "cache-control": "no-cache"}
         if request.headers.get("if-none-match") == tag:
@@ -112,9 +112,8 @@ def _view(episode: Episode, step: int) -> bytes:
     return wire.pack("view", {"step": at}, {"bev": view_at(episode, at)})
 
 
-@lru_cache(maxsize=2)
-def _scene_of(name: str) -> bytes:
-    """Describe a town that nobody drives in now.
+def _scene(name: str) -> bytes:
+    """Describe a town that nobody drives in now, as it is by now.
 
     Raises:
         UnknownNameError: If there is no such town.
@@ -122,7 +121,11 @@ def _scene_of(name: str) -> bytes:
     names = library.town_names()
     if name not in names:
         raise UnknownNameError("town", name, names)
-    town = library.load(name)
+    return _scene_of(library.load(name))
+
+
+@lru_cache(maxsize=2)
+def _scene_of(town: Town) -> bytes:
     return scene_message(town, Simulation(town).model)
 
 

@@ -2,6 +2,7 @@
 
 rows         as in "history"
 poses        position [m] and quaternion of each body of the car at each step, (T, N, 7)
+lights       signal of each light at each step, (T, L) uint8
 infractions  in the head: kind, time [s], x, y [m], cause
 """
 
@@ -12,9 +13,10 @@ import numpy as np
 from jaxtyping import Float, UInt8
 
 from mjdrive.bev.projector import BevProjector
-from mjdrive.datatypes import Episode
+from mjdrive.datatypes import Episode, Town
 from mjdrive.errors import DataError
-from mjdrive.town import library
+from mjdrive.recording.playback import town_of
+from mjdrive.town import signals
 from mjdrive.vehicle import cars
 from mjdrive.vehicle.assembly import car_on_road
 from mjdrive.vehicle.car import Car
@@ -32,8 +34,10 @@ def episode_message(episode: Episode, name: str) -> bytes:
         name: How the page calls it.
 
     Raises:
-        DataError: If another car drove than one that comes with mjdrive.
+        DataError: If another car drove than one that comes with mjdrive, or the town has changed since.
+        UnknownNameError: If there is no such town.
     """
+    lights = light_signals(episode, town_of(episode))
     rows = np.column_stack(
         [episode.time, episode.vehicle[:, :2], episode.vehicle[:, 3], episode.actions]
     )
@@ -48,8 +52,15 @@ def episode_message(episode: Episode, name: str) -> bytes:
             for it in episode.infractions
         ],
     }
-    blobs = {"rows": rows.astype(np.float32), "poses": body_poses(episode)}
+    blobs = {"rows": rows.astype(np.float32), "poses": body_poses(episode), "lights": lights}
     return wire.pack("episode", head, blobs)
+
+
+def light_signals(episode: Episode, town: Town) -> UInt8[np.ndarray, "T L"]:
+    """What each light of the town showed at each step, as a `Signal`."""
+    shown = (signals.all_at(town, float(now) + episode.light_phase) for now in episode.time)
+    rows = np.array([[now[name] for name in town.lights] for now in shown], np.uint8)
+    return rows.reshape(len(episode.time), len(town.lights))
 
 
 def body_poses(episode: Episode) -> Float[np.ndarray, "T N 7"]:
@@ -75,9 +86,14 @@ def body_poses(episode: Episode) -> Float[np.ndarray, "T N 7"]:
 
 
 def view_at(episode: Episode, step: int) -> UInt8[np.ndarray, "5 S S"]:
-    """The bird's-eye view at a step."""
+    """The bird's-eye view at a step.
+
+    Raises:
+        DataError: If the town has changed since.
+        UnknownNameError: If there is no such town.
+    """
     x, y, yaw, *_ = episode.vehicle[step]
-    return _projector(episode.town).project(
+    return _projector(town_of(episode)).project(
         x=float(x),
         y=float(y),
         yaw=float(yaw),
@@ -87,5 +103,5 @@ def view_at(episode: Episode, step: int) -> UInt8[np.ndarray, "5 S S"]:
 
 
 @lru_cache(maxsize=2)
-def _projector(town: str) -> BevProjector:
-    return BevProjector(library.load(town))
+def _projector(town: Town) -> BevProjector:
+    return BevProjector(town)

@@ -134,7 +134,7 @@ def environment(installed: Path) -> dict[str, str]:
 
 
 def straight_episode() -> Episode:
-    """Straight on along x at 10 m/s, with an infraction after two seconds."""
+    """Straight on along x at 10 m/s, with an infraction after two seconds, when lights turn yellow, too."""
     steps = 60
     model = car_on_road(timestep=0.005, car=cars.load(cars.DEFAULT).path).compile()
     physics = Car(model, mujoco.MjData(model)).save()
@@ -145,7 +145,7 @@ def straight_episode() -> Episode:
         town="town03",
         policy="searcher",
         seed=7,
-        light_phase=0.0,
+        light_phase=8.0,
         time=0.1 * np.arange(steps),
         physics=np.tile(physics, (steps, 1)),
         vehicle=vehicle,
