@@ -45,7 +45,9 @@ class Cockpit:
     def turn(self) -> None:
         """Decide, and drive for one control interval unless that is paused."""
         if self._decision is None and not self.fault:
-            self._decide()
+            self._decision = self._decide()
+            if self.is_waiting:
+                self._tell_panel(self._decision, None, is_due=True)
         if self._decision is not None and not self.is_waiting:
             self._drive(self._decision)
 
@@ -75,6 +77,7 @@ class Cockpit:
         self._decision, self.fault = None, ""
         self._pace.restart()
         self._tell.history()
+        self._tell.pose(seq=self._inbox.wheel.seq)
 
     def let_policy_drive(self) -> None:
         """Go on from where a person has left the car."""
@@ -107,32 +110,38 @@ class Cockpit:
         self._tell.history()
         self._tell.pose(seq=self._inbox.wheel.seq)
         if self._decision is not None:
-            self._tell_panel(self._decision, is_due=True)
+            self._tell_panel(self._decision, None, is_due=True)
         self.announce()
 
-    def _decide(self) -> None:
+    def _decide(self) -> Decision:
         try:
-            self._decision = self._session.decide()
+            return self._session.decide()
         except Exception:
-            if self._inbox.wheel.holder is None:
+            if not self._is_by_hand:
                 raise
-            self._decision = self._session.look()  # a person drives on, whatever the policy does
-        self._tell_panel(self._decision, is_due=self.is_paused)
+            return self._session.look()  # a person drives on, whatever the policy does
 
-    def _tell_panel(self, decision: Decision, *, is_due: bool) -> None:
-        by_hand = self._inbox.wheel.holder is not None
-        self._tell.panel(decision, by_hand=by_hand, is_due=is_due)
+    @property
+    def _is_by_hand(self) -> bool:
+        """Whether a person drives; what they force while it is paused is a part of what they drive."""
+        return self._inbox.wheel.holder is not None
+
+    def _tell_panel(self, decision: Decision, driven: Action | None, *, is_due: bool) -> None:
+        self._tell.panel(decision, driven, by_hand=self._is_by_hand, is_due=is_due)
+
+    def _action(self, decision: Decision) -> Action:
+        """What is done now: what a page forces, what the wheel says, or what the policy chose."""
+        if self._next is not None:
+            forced, self._next = self._next, None
+            return forced
+        if self._is_by_hand:
+            return self._inbox.wheel.action(self._session.simulation.config.control_interval)
+        assert decision.action is not None, "who lets go lets the policy decide anew"
+        return decision.action
 
     def _drive(self, decision: Decision) -> None:
-        interval = self._session.simulation.config.control_interval
-        wheel, by_hand = self._inbox.wheel, False
-        if self._next is not None:
-            action, self._next = self._next, None
-        elif wheel.holder is not None:
-            action, by_hand = wheel.action(interval), True
-        else:
-            assert decision.action is not None, "who lets go lets the policy decide anew"
-            action = decision.action
+        by_hand, action = self._is_by_hand, self._action(decision)
+        self._tell_panel(decision, action, is_due=False)
         try:
             found = self._session.step(action, on_motion=self._on_motion, by_hand=by_hand)
         except PhysicsError as error:

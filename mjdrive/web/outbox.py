@@ -9,6 +9,9 @@ from collections.abc import Awaitable, Callable
 WINDOW = 6
 """Messages that a page may have unacknowledged [-]."""
 
+BEGINNING = "history"
+"""The kind after which all is told anew; what waited before it belongs to another drive."""
+
 MOST_TEXTS = 32
 """That wait; the oldest are forgotten [-]."""
 
@@ -42,7 +45,10 @@ class Outbox:
         self.number = 0
 
     def put(self, kind: str, message: bytes) -> None:
-        """Let a message wait; an older one of its kind is forgotten."""
+        """Let a message wait; an older one of its kind is forgotten, and all that came before a `BEGINNING`."""
+        if kind == BEGINNING:
+            self.dropped += len(self._waiting)
+            self._waiting.clear()
         self.dropped += kind in self._waiting
         self._waiting[kind] = message
         self._ready.set()

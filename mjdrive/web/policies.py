@@ -63,8 +63,11 @@ class Mind(Protocol):
     def take_over(self, simulation: Simulation) -> None:
         """Drive on from wherever a person has left the car."""
 
+    def chosen_from(self) -> Density | None:
+        """What it chose from last; it costs nothing. None where that was no landscape."""
+
     def density(self, observation: Observation) -> Density | None:
-        """What it thinks of all actions; None where it cannot be asked."""
+        """What it thinks of all actions, where it takes time to ask; None where it cannot be asked."""
 
     def points(self) -> Int8[np.ndarray, "I N 2"] | None:
         """Candidates of the last decision by iteration, in 1/127; None where there was no search."""
@@ -102,6 +105,10 @@ class ExpertMind:
         lane, seen = routing.nearest_lane(simulation.town, place, yaw=vehicle.yaw)
         self._follow(simulation, lane, seen.station)
         self._expert.reset(self._seed)
+
+    def chosen_from(self) -> Density | None:
+        """Experts think of one action alone."""
+        return None
 
     def density(self, observation: Observation) -> Density | None:
         """Experts think of one action alone."""
@@ -170,7 +177,6 @@ class PilotMind:
         self._pilot = pilot
         self._searched: list[torch.Tensor] = []
         self._scored: list[torch.Tensor] = []
-        self._seen: Observation | None = None
         if isinstance(pilot.learner, IbcLearner):
             pilot.learner.on_candidates = self._searched.append
             pilot.learner.on_energies = self._scored.append
@@ -186,18 +192,22 @@ class PilotMind:
         del simulation
         self._searched.clear()
         self._scored.clear()
-        self._seen = observation
         return self._pilot.act(observation)
 
     def take_over(self, simulation: Simulation) -> None:
         """Nothing to do: it decides anew at every step."""
 
     @torch.inference_mode()
+    def chosen_from(self) -> Density | None:
+        """The grid that it chose from, if its sampler is one."""
+        if not self._scored:
+            return None
+        (energies,) = self._scored
+        return shade(-_thinned(energies[0]).double().cpu().numpy())
+
+    @torch.inference_mode()
     def density(self, observation: Observation) -> Density:
-        """What it chose from, if that was a grid; else ask the network about one."""
-        if self._scored and observation is self._seen:
-            (energies,) = self._scored
-            return shade(-_thinned(energies[0]).double().cpu().numpy())
+        """Ask the network about a grid."""
         device = self._pilot.device
         bev = torch.tensor(observation.bev, device=device)[None]
         state = torch.tensor(observation.state, device=device)[None]

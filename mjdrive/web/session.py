@@ -18,6 +18,9 @@ from mjdrive.web.scene import scene_message
 MOST_ROWS = 36_000
 """Of a drive that are remembered for pages that come later [-]."""
 
+LATEST_ROWS = 64
+"""That each panel brings, so that a page which misses some has the whole drive [-]."""
+
 MOST_INFRACTIONS = 200
 """That are told to pages, the newest ones [-]."""
 
@@ -180,7 +183,12 @@ class Session:
     @property
     def rows(self) -> Float[np.ndarray, "T 6"]:
         """The drive so far: time [s], x, y [m], speed [m/s], acceleration, steering [-]."""
-        return np.array(self._rows, np.float32).reshape(-1, 6).astype(np.float64)
+        return np.array(self._rows, np.float64).reshape(-1, 6)
+
+    @property
+    def latest_rows(self) -> Float[np.ndarray, "T 6"]:
+        """The end of `rows`, `LATEST_ROWS` at most."""
+        return np.array(self._rows[-LATEST_ROWS:], np.float64).reshape(-1, 6)
 
     def _remember(self, action: Action) -> None:
         vehicle = self.simulation.vehicle

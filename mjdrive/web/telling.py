@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Int8
 
+from mjdrive.datatypes import Action
 from mjdrive.web import wire
 from mjdrive.web.policies import Density
 from mjdrive.web.session import Decision, Session
@@ -31,10 +32,20 @@ def panel_message(
     density: Density | None,
     points: Int8[np.ndarray, "I N 2"] | None,
     *,
+    driven: Action | None,
     by_hand: bool,
 ) -> bytes:
-    """Say what the policy sees and thinks, and what it would do."""
-    simulation, action = session.simulation, decision.action
+    """Say what the policy sees and thinks, what it would do and what is done, and the last steps before.
+
+    Args:
+        session: What is driven, at the moment of the decision.
+        decision: What the policy sees and would do.
+        density: Its landscape, if it was asked for.
+        points: Candidates of its sampler, if there was one.
+        driven: What is done now; None while that is open.
+        by_hand: Whether a person drives.
+    """
+    simulation = session.simulation
     vehicle, lights = simulation.vehicle, simulation.lights
     head: dict[str, Any] = {
         "tick": decision.tick,
@@ -43,13 +54,14 @@ def panel_message(
         "y": round(vehicle.y, 2),
         "yaw": round(vehicle.yaw, 4),
         "speed": round(vehicle.speed, 3),
-        "action": action and [round(action.acceleration, 4), round(action.steering, 4)],
-        "driven": [round(simulation.action.acceleration, 4), round(simulation.action.steering, 4)],
+        "action": _commands(decision.action),
+        "driven": _commands(driven),
         "by": "hand" if by_hand else session.mind.name,
     }
     blobs: dict[str, np.ndarray] = {
         "bev": decision.observation.bev,
         "lights": np.array([lights[name] for name in simulation.town.lights], np.uint8),
+        "rows": session.latest_rows.astype(np.float32),
     }
     if density is not None:
         head |= {"low": round(density.low, 3), "high": round(density.high, 3)}
@@ -57,6 +69,11 @@ def panel_message(
     if points is not None:
         blobs["points"] = points
     return wire.pack("panel", head, blobs)
+
+
+def _commands(action: Action | None) -> list[float] | None:
+    """Acceleration and steering of an action."""
+    return None if action is None else [round(action.acceleration, 4), round(action.steering, 4)]
 
 
 def history_message(session: Session) -> bytes:

@@ -4,14 +4,16 @@ Binary messages, to the page: [u32 n, little endian][JSON head, n bytes][blobs].
 head says in "b" where: name -> [dtype, shape, offset from the end of the head]; where a number of bytes follows, so many are the
 blob deflated by zlib, for pages behind slow links. Every head has "v", the version, and "k":
 
-    "pose"     50 times a second   t [s], speed [m/s], action [acceleration, steering], tick, seq (of the keys that are
-               driven by), rate (simulated over real time); blob q: position [m] and quaternion of each body, (N, 7)
-    "panel"    each decision, 20 times a second at most: tick, t, x, y [m], yaw [rad], action (of the policy; null where it
-               has none while a person drives), driven (the last one that was taken), by (who drives); blobs bev: the
-               five channels of the view, (5, S, S) uint8; lights: signal of each light; and where the policy can be
-               asked: density: log of its density less the highest, over DEPTH nats, acceleration outermost, uint8, with
-               low and high [nats] in the head; points: candidates of its sampler by iteration, int8 of 127
-    "history"  at the start and after a reset or load; blob rows: t, x, y, speed, acceleration, steering, (T, 6)
+    "pose"     50 times a second   t [s], speed [m/s], action [acceleration, steering], seq (of the keys that are driven
+               by), rate (simulated over real time); blob q: position [m] and quaternion of each body, (N, 7)
+    "panel"    each decision, 20 times a second at most: tick, t, x, y [m], yaw [rad], speed [m/s], action (of the policy;
+               null where it has none while a person drives), driven (what is done at this tick; null while it is
+               paused), by (who drives); blobs bev: the five channels of the view, (5, S, S) uint8; lights: signal of each
+               light; rows: the last steps before this tick, as in "history"; and where the policy can be asked: density:
+               log of its density less the highest, over DEPTH nats, acceleration outermost, uint8, with low and high
+               [nats] in the head; points: candidates of its sampler by iteration, int8 of 127
+    "history"  at the start and after a reset or load; blob rows: t, x, y, speed, and the acceleration and steering that
+               were done then, (T, 6)
     "beat"     every five seconds, whatever else is sent: where it stays away, the connection is lost
     "scene"    the town, answered to GET api/scene (see scene.py)
 

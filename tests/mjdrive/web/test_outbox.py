@@ -68,6 +68,21 @@ def test_kinds_do_not_take_each_others_place() -> None:
     play(scenario)
 
 
+def test_what_waits_when_a_drive_begins_anew_is_of_another_drive() -> None:
+    async def scenario() -> None:
+        page = Page()
+        outbox = Outbox(page.send, page.send_text)
+        outbox.put("panel", b"old panel")
+        outbox.put("pose", b"old pose")
+        outbox.put("history", b"nothing yet")
+        outbox.put("panel", b"new panel")
+        await pumped(outbox)
+        assert page.got == [b"nothing yet", b"new panel"]
+        assert outbox.dropped == 2
+
+    play(scenario)
+
+
 def test_a_page_cannot_acknowledge_what_was_not_sent() -> None:
     async def scenario() -> None:
         page = Page()

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 import torch
 
-from mjdrive.datatypes import Observation
 from mjdrive.errors import RunError
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.web.choices import load_mind
@@ -43,12 +42,13 @@ def test_the_landscape_is_that_which_was_chosen_from(simulation: Simulation) -> 
     for _ in range(3):
         seen = simulation.observe()
         simulation.step(mind.decide(simulation, seen))
-        found = mind.density(seen)
+        found = mind.chosen_from()
+        assert found is not None
         bev, state = torch.tensor(seen.bev)[None], torch.tensor(seen.state)[None]
         told = learner.log_density(bev, state, action_grid(side)[None]).view(1, side, side)
         expected = shade(torch.nn.functional.adaptive_max_pool2d(told, POINTS)[0].double().numpy())
         # Energies to choose from may be in bfloat16.
         assert np.abs(found.pixels.astype(float) - expected.pixels).mean() <= 3
         assert (found.low, found.high) == pytest.approx((expected.low, expected.high), abs=0.5)
-        asked = mind.density(Observation(bev=seen.bev, state=seen.state))  # of another moment
+        asked = mind.density(seen)
         assert asked.pixels.shape == found.pixels.shape

@@ -1,5 +1,6 @@
 """A drive by hand becomes a demonstration that training accepts, and names are never paths."""
 
+import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -8,11 +9,12 @@ import pytest
 from mjdrive.datatypes import Action
 from mjdrive.episodes import dataset
 from mjdrive.errors import DataError, UnknownNameError
+from mjdrive.town import signals
 from mjdrive.web import wire
 from mjdrive.web.choices import load_mind
 from mjdrive.web.policies import DEPTH, shade
 from mjdrive.web.recording import HUMAN, SOURCE
-from mjdrive.web.replaying import episode_message
+from mjdrive.web.replaying import episode_message, view_at
 from mjdrive.web.session import Choice, Session
 from mjdrive.web.telling import panel_message, pose_message
 
@@ -81,6 +83,36 @@ def test_a_replay_shows_the_car_where_it_was(session: Session) -> None:
     assert blobs["rows"].shape == (20, 6)
 
 
+def test_a_replay_shows_the_lights_as_they_were(session: Session) -> None:
+    session.reset()
+    session.begin_recording()
+    lights = []
+    for _ in range(20):
+        lights.append(list(session.simulation.lights.values()))
+        drive(session, 1)
+    assert session.recording is not None
+    cycle = signals.cycle(session.simulation.town)
+    _, blobs = wire.unpack(episode_message(session.recording.episode(), "x"))
+    assert blobs["lights"].tolist() == lights
+    assert blobs["lights"].shape == (20, len(session.simulation.town.lights))
+    later = dataclasses.replace(session.recording.episode(), light_phase=0.3 * cycle)
+    _, blobs = wire.unpack(episode_message(later, "x"))
+    expected = signals.all_at(session.simulation.town, float(later.time[0]) + 0.3 * cycle)
+    assert blobs["lights"][0].tolist() == list(expected.values())
+
+
+def test_a_replay_in_a_town_that_has_changed_is_refused(session: Session) -> None:
+    session.reset()
+    session.begin_recording()
+    drive(session, 10)
+    assert session.recording is not None
+    episode = session.recording.episode()
+    old = dataclasses.replace(episode, metadata={**episode.metadata, "town_digest": "of another"})
+    for show in (lambda: episode_message(old, "x"), lambda: view_at(old, 3)):
+        with pytest.raises(DataError, match="another map"):
+            show()
+
+
 def test_the_same_seed_drives_the_same(session: Session) -> None:
     ends = []
     for _ in range(2):
@@ -95,8 +127,11 @@ def test_messages_of_one_decision_carry_its_tick(session: Session) -> None:
     session.reset()
     drive(session, 2)
     decision = session.decide()
-    head, blobs = wire.unpack(panel_message(session, decision, None, None, by_hand=False))
-    assert head["tick"] == 2
+    driven = Action(0.5, -0.25)
+    message = panel_message(session, decision, None, None, driven=driven, by_hand=False)
+    head, blobs = wire.unpack(message)
+    assert head["tick"] == len(blobs["rows"]) == 2
+    assert head["driven"] == [0.5, -0.25]
     np.testing.assert_array_equal(blobs["bev"], decision.observation.bev)
     assert len(blobs["lights"]) == len(session.simulation.town.lights)
     pose, poses = wire.unpack(pose_message(session, seq=0, rate=1.0))

@@ -1,5 +1,6 @@
 // Speed and the two commands over time, one small chart below the other.
 import { $, COLORS, fitted } from "./dom";
+import { COLUMNS } from "./rows";
 
 const SPAN_S = 20;
 const LEFT = 34, RIGHT = 8, TITLE = 20, BOTTOM = 16;
@@ -8,7 +9,6 @@ const CHARTS = [
   { name: "acceleration", unit: "", column: 4, factor: 1, low: -1, high: 1, color: COLORS.acceleration },
   { name: "steering, left is up", unit: "", column: 5, factor: 1, low: -1, high: 1, color: COLORS.steering },
 ] as const;
-const COLUMNS = 6;
 
 interface Chart { name: string; unit: string; column: number; factor: number; low: number; high: number; color: string }
 
@@ -16,16 +16,19 @@ export class ChartsPanel {
   private readonly canvas = $<HTMLCanvasElement>("charts");
   private rows: number[] = [];
 
-  set(rows: ArrayLike<number>): void { this.rows = Array.from(rows); }
+  /** The decision that is shown: what is done now is open until it has been done. */
+  now: number[] = [];
 
-  add(row: number[]): void {
-    this.rows.push(...row);
+  set(rows: ArrayLike<number>): void { this.rows = Array.from(rows); this.now = []; }
+
+  add(rows: Float32Array): void {
+    this.rows.push(...rows);
     const surplus = this.rows.length - COLUMNS * 2000;
     if (surplus > 0) this.rows.splice(0, Math.ceil(surplus / COLUMNS) * COLUMNS);
   }
 
-  /** Draw the last seconds before a time [s]; the newest if none is given. */
-  draw(until = this.rows.length ? this.rows[this.rows.length - COLUMNS] : 0): void {
+  /** Draw the last seconds before a time [s]; those before the decision that is shown if none is given. */
+  draw(until = this.now[0] ?? this.rows[this.rows.length - COLUMNS] ?? 0): void {
     if (!this.canvas.clientWidth) return;
     const { pen, width, height } = fitted(this.canvas), each = (height - BOTTOM) / CHARTS.length;
     pen.clearRect(0, 0, width, height);
@@ -42,10 +45,18 @@ export class ChartsPanel {
   private scaled(chart: Chart, until: number): Chart {
     if (chart.low < 0) return chart;
     let most = chart.high;
-    for (let at = 0; at < this.rows.length; at += COLUMNS) {
-      if (this.rows[at] > until - SPAN_S && this.rows[at] <= until) most = Math.max(most, chart.factor * this.rows[at + chart.column]);
-    }
+    for (const [, value] of this.points(chart, until)) most = Math.max(most, value);
     return { ...chart, high: 12 * Math.ceil(most / 12) };
+  }
+
+  /** Times [s] and values until a time, the last seconds of it; of the decision that is shown, what is known. */
+  private points({ column, factor }: Chart, until: number): [time: number, value: number][] {
+    const found: [number, number][] = [], add = (time: number, value: number): void => {
+      if (time >= until - SPAN_S && time <= until + 1e-6 && Number.isFinite(value)) found.push([time, factor * value]);
+    };
+    for (let at = 0; at < this.rows.length; at += COLUMNS) if (!(this.rows[at] >= this.now[0])) add(this.rows[at], this.rows[at + column]);
+    if (this.now.length) add(this.now[0], this.now[column]);
+    return found;
   }
 
   private drawOne(pen: CanvasRenderingContext2D, chart: Chart, top: number, height: number, width: number, until: number): void {
@@ -61,15 +72,10 @@ export class ChartsPanel {
     pen.stroke();
     pen.strokeStyle = chart.color; pen.lineWidth = 1.6; pen.lineJoin = "round";
     pen.beginPath();
-    let last = NaN;
-    for (let at = 0; at < this.rows.length; at += COLUMNS) {
-      const time = this.rows[at];
-      if (time < until - SPAN_S || time > until + 1e-6) continue;
-      last = chart.factor * this.rows[at + chart.column];
-      pen.lineTo(x(time), Math.min(Math.max(y(last), top), top + height));
-    }
+    const points = this.points(chart, until);
+    for (const [time, value] of points) pen.lineTo(x(time), Math.min(Math.max(y(value), top), top + height));
     pen.stroke();
-    this.drawTitle(pen, chart, last, top, width);
+    this.drawTitle(pen, chart, points[points.length - 1]?.[1] ?? NaN, top, width);
   }
 
   private drawTitle(pen: CanvasRenderingContext2D, chart: Chart, last: number, top: number, width: number): void {

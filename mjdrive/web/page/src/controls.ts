@@ -9,6 +9,7 @@ const STEPS_A_SECOND = 10;
 
 export class Controls {
   private state?: State;
+  private isLost = true; // until the server has said who is who
   private shownRoles = "";
   private readonly town = $<HTMLSelectElement>("town");
   private readonly policy = $<HTMLSelectElement>("policy");
@@ -33,10 +34,9 @@ export class Controls {
 
   /** Fill the lists, and ask for what the address asks for. */
   async begin(): Promise<void> {
-    const { towns, policies } = await fetchJson<{ towns: string[]; policies: string[] }>("api/catalogue");
-    options(this.town, towns.map((it) => [it, it]), this.state?.town ?? "");
-    options(this.policy, policies.map((it) => [it, it]), this.state?.policy ?? "");
-    if (this.state) this.show(this.state);
+    await this.refresh();
+    const speed = Number(asked("speed"));
+    if (this.isMine && SPEEDS.includes(speed) && speed !== this.state?.speed) this.send({ op: "speed", factor: speed });
     const wanted: Record<string, unknown> = {};
     if (asked("town")) wanted.town = asked("town");
     if (asked("policy")) wanted.policy = asked("policy");
@@ -45,8 +45,24 @@ export class Controls {
     if (differs && this.isMine) this.load(wanted);
   }
 
+  /** Towns and policies as they are by now: runs come and go while a page is open. */
+  async refresh(): Promise<void> {
+    const { towns, policies } = await fetchJson<{ towns: string[]; policies: string[] }>("api/catalogue");
+    fill(this.town, towns, this.state?.town);
+    fill(this.policy, policies, this.state?.policy);
+  }
+
+  /** The connection is lost: nothing that is pressed would be heard. */
+  setLost(): void {
+    this.isLost = true;
+    this.shownRoles = "";
+    $("roles").hidden = true;
+    this.enable();
+  }
+
   show(state: State): void {
     this.state = state;
+    this.isLost = false;
     this.town.value = state.town;
     this.policy.value = state.policy;
     if (document.activeElement !== this.seed) this.seed.value = String(state.seed);
@@ -57,8 +73,7 @@ export class Controls {
     wheel.setAttribute("aria-pressed", String(state.wheel === "yours"));
     $("recording").hidden = state.recorded === 0;
     say($("keep"), `Keep ${(state.recorded / STEPS_A_SECOND).toFixed(0)} s as a demonstration`);
-    for (const it of $("controls").querySelectorAll<HTMLButtonElement>("button, select, input")) it.disabled = !this.isMine;
-    wheel.disabled = !this.isMine || state.wheel === "taken";
+    this.enable();
     this.showRoles(state);
   }
 
@@ -71,6 +86,12 @@ export class Controls {
   drop(): void { if (this.state?.recorded) this.send({ op: "drop" }); }
 
   get isMine(): boolean { return this.state === undefined || this.state.operator === this.state.you; }
+
+  private enable(): void {
+    const isMine = this.isMine && !this.isLost;
+    for (const it of $("controls").querySelectorAll<HTMLButtonElement>("button, select, input")) it.disabled = !isMine;
+    $<HTMLButtonElement>("wheel").disabled = !isMine || this.state?.wheel === "taken";
+  }
 
   private showRoles(state: State): void {
     const { you, operator, asking } = state, key = JSON.stringify([you, operator, asking]);
@@ -92,4 +113,10 @@ export class Controls {
     this.send({ op: "load", ...values });
     remember(values as Record<string, string | number>);
   }
+}
+
+/** Names to choose from; a list that is open is left alone where it has not changed. What is driven is there, whatever was deleted since. */
+function fill(select: HTMLSelectElement, names: string[], chosen: string | undefined): void {
+  const all = chosen === undefined ? names : [...new Set([...names, chosen])];
+  if (String(all) !== String([...select.options].map((it) => it.value))) options(select, all.map((it) => [it, it]), chosen ?? "");
 }

@@ -1,4 +1,5 @@
 // The episodes tab: what was driven, by whom, and how; a click replays it in the live view.
+import { asked, remember } from "./address";
 import { fetchJson } from "./codec";
 import { $, make } from "./dom";
 import { table } from "./table";
@@ -14,7 +15,8 @@ export class Episodes {
   private readonly list = make("div", { className: "scroll" });
 
   constructor(private readonly replay: (name: string) => void, private readonly note: (line: string) => void) {
-    this.filter.oninput = () => this.show();
+    this.filter.value = asked("filter") ?? "";
+    this.filter.oninput = () => { remember({ filter: this.filter.value.trim() }); this.show(); };
     $("episodes").append(make("div", { className: "bar" }, make("h2", { textContent: "Episodes" }), this.filter), this.list);
   }
 

@@ -22,14 +22,26 @@ export function drawPin(pen: CanvasRenderingContext2D, x: number, y: number, kin
   pen.fillText(letter, x, y - PIN_PX + 0.5);
 }
 
-/** How many there are of each kind; also the legend of the pins. */
-export function showCounts(infractions: Infraction[]): void {
-  const counts = new Map<string, number>();
-  for (const [kind] of infractions) counts.set(kind, (counts.get(kind) ?? 0) + 1);
-  const items = [...counts].map(([kind, count]) => {
+/** A ring around the pin that was picked. */
+export function drawPicked(pen: CanvasRenderingContext2D, x: number, y: number): void {
+  pen.strokeStyle = "#ffffff"; pen.lineWidth = 2;
+  pen.beginPath(); pen.arc(x, y - PIN_PX, 11, 0, 7); pen.stroke();
+}
+
+/** How many there are of each kind; also the legend of the pins, and the way to them without a mouse: each press picks the next one. */
+export function showCounts(infractions: Infraction[], pick: (infraction: Infraction) => void): void {
+  const kinds = new Map<string, Infraction[]>(), list = $("infractions");
+  for (const it of infractions) kinds.set(it[0], [...(kinds.get(it[0]) ?? []), it]);
+  const items = [...kinds].map(([kind, all]) => {
     const [letter, color] = look(kind), badge = make("b", { textContent: letter, ariaHidden: "true" });
     badge.style.background = color;
-    return make("li", {}, badge, `${count} × ${spoken(kind)}`);
+    const button = make("button", { type: "button", title: "Show the next one on the map" }, badge, `${all.length} × ${spoken(kind)}`);
+    let next = 0;
+    button.dataset.kind = kind;
+    button.onclick = () => pick(all[next++ % all.length]);
+    return make("li", {}, button);
   });
-  $("infractions").replaceChildren(...(items.length ? items : [make("li", { className: "clean", textContent: "no infraction" })]));
+  const focused = list.contains(document.activeElement) ? (document.activeElement as HTMLElement).dataset.kind : undefined;
+  list.replaceChildren(...(items.length ? items : [make("li", { className: "clean", textContent: "no infraction" })]));
+  if (focused) list.querySelector<HTMLElement>(`[data-kind=${focused}]`)?.focus();
 }

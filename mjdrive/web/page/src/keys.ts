@@ -32,6 +32,7 @@ export class Keys {
 
   setDriving(on: boolean): void {
     if (this.isDriving && !on) this.driver.hold(null);
+    if (on && !this.isDriving) (document.activeElement as HTMLElement | null)?.blur(); // arrows drive, whatever had the focus
     this.isDriving = on;
   }
 

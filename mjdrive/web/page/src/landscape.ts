@@ -1,5 +1,5 @@
 // What the policy thinks of all actions: steering across, as it turns (left is left), acceleration upwards. Everything in the
-// panel belongs to one decision, whose tick is in its caption: the last one that there was time to draw a landscape for.
+// panel belongs to one decision, whose tick is in its caption; where there was no time for its landscape, none is shown.
 import type { Message } from "./codec";
 import { $, fitted, make, say } from "./dom";
 import { boxOf, DEPTH_NATS, drawAxes, drawMark, drawPoints, drawScale, paint, spotAt, type Spot } from "./landscape_drawing";
@@ -41,10 +41,9 @@ export class LandscapePanel {
   }
 
   show({ head, blobs, shapes }: Message): void {
-    if (!blobs.density && this.thought.pixels && this.isLate) return;
     const spot = (action: number[] | null): Spot | undefined => (action ? { acceleration: action[0], steering: action[1] } : undefined);
     this.thought = {
-      tick: head.tick, chosen: spot(head.action), driven: head.by === "hand" ? spot(head.driven) : undefined,
+      tick: head.tick, chosen: spot(head.action), driven: isOther(head) ? spot(head.driven) : undefined,
       pixels: blobs.density as Uint8Array | undefined, size: blobs.density ? shapes.density[0] : 0, points: blobs.points as Int8Array | undefined,
     };
     if (this.thought.pixels) paint(this.field, this.thought.pixels, this.thought.size);
@@ -119,6 +118,8 @@ export class LandscapePanel {
   }
 }
 
+/** Whether something else was done than the policy chose: by hand, or forced. */
+const isOther = ({ by, driven, action }: Record<string, any>): boolean => by === "hand" || String(driven) !== String(action);
 const signed = (value: number): string => (value >= 0 ? "+" : "−") + Math.abs(value).toFixed(2);
 const words = ({ acceleration, steering }: Spot): string => `acceleration ${signed(acceleration)}, steering ${signed(steering)}`;
 

@@ -9,6 +9,8 @@ import { showCounts } from "./infractions";
 import { LandscapePanel } from "./landscape";
 import type { Infraction, State } from "./link";
 import { MapPanel } from "./map";
+import { markChosen, rove } from "./roving";
+import { endOf, rowsAfter } from "./rows";
 import { View } from "./view";
 
 const DRAW_MS = 100;
@@ -25,7 +27,10 @@ export class Live {
   town = "";
   isReplaying = false;
   private speed = 1;
+  private latest?: Message; // the panel message that the panels show, or will show next
+  private toldUntil = -Infinity; // time of the last step in charts and trail [s]
   private isDrawDue = false;
+  private drawnAt = 0;
   private shownInfractions = "";
 
   constructor(send: (command: object) => void, seek: (time: number) => void) {
@@ -50,9 +55,12 @@ export class Live {
     if (message.kind === "pose") this.hearPose(message);
     else if (message.kind === "panel") this.hearPanel(message);
     else if (message.kind === "history") {
-      this.map.setTrail(message.blobs.rows as Float32Array);
-      this.charts.set(message.blobs.rows as Float32Array);
+      const rows = message.blobs.rows as Float32Array;
+      this.map.setTrail(rows);
+      this.charts.set(rows);
       this.landscape.forget();
+      this.toldUntil = endOf(rows);
+      this.latest = undefined;
     }
   }
 
@@ -62,13 +70,20 @@ export class Live {
     this.landscape.isPaused = state.paused;
     this.setInfractions(state.infractions);
     const yours = state.wheel === "yours", badge = $("badge");
-    const who = yours ? `You drive${state.recorded ? ` · ${(state.recorded / 10).toFixed(0)} s recorded` : ""}`
-      : state.wheel === "taken" ? `Page ${state.driver} drives` : `${state.policy} drives`;
-    say(badge, state.paused ? `${who} · paused` : who);
+    const who = yours ? "You drive" : state.wheel === "taken" ? `Page ${state.driver} drives` : `${state.policy} drives`;
+    say($("who"), state.paused ? `${who} · paused` : who);
+    say($("recorded"), yours && state.recorded ? ` · ${(state.recorded / 10).toFixed(0)} s recorded` : "");
     badge.classList.toggle("yours", yours);
     badge.classList.toggle("theirs", state.wheel === "taken");
     $("fault").hidden = !state.fault;
     say($("fault"), state.fault ? `The drive has stopped. ${state.fault}` : "");
+  }
+
+  /** Until the server is there again, nobody knows who drives. */
+  setLost(): void {
+    say($("who"), "No connection");
+    say($("recorded"), "");
+    $("badge").classList.remove("yours", "theirs");
   }
 
   setInfractions(infractions: Infraction[]): void {
@@ -77,7 +92,7 @@ export class Live {
     this.shownInfractions = key;
     this.map.setInfractions(infractions);
     this.map.draw();
-    showCounts(infractions);
+    showCounts(infractions, (it) => this.map.pick(it));
   }
 
   showMotion(time: number, speed: number, acceleration: number, steering: number): void {
@@ -90,7 +105,7 @@ export class Live {
 
   chooseCamera(name: CameraName): void {
     this.view?.choose(name);
-    document.querySelectorAll<HTMLElement>("#cameras button").forEach((it) => it.setAttribute("aria-checked", String(it.textContent === name)));
+    markChosen($("cameras"), (it) => it.textContent === name);
     remember({ camera: name === "chase" ? null : name });
   }
 
@@ -109,28 +124,39 @@ export class Live {
   }
 
   private hearPanel(message: Message): void {
-    const { head, blobs, shapes } = message;
+    const fresh = rowsAfter(message.blobs.rows as Float32Array, this.toldUntil);
     this.panels++;
-    this.bev.show(blobs.bev, shapes.bev[1]);
-    this.view?.town?.showLights(blobs.lights as Uint8Array);
-    this.landscape.show(message);
-    this.map.setLights(blobs.lights);
-    this.map.move(head.x, head.y, head.yaw);
-    this.charts.add([head.t, head.x, head.y, head.speed, ...head.driven]);
-    say($("bev-tick"), `tick ${head.tick}`);
-    this.drawSoon();
+    this.toldUntil = Math.max(this.toldUntil, endOf(fresh));
+    this.charts.add(fresh);
+    this.map.extendTrail(fresh);
+    this.view?.town?.showLights(message.blobs.lights as Uint8Array);
+    this.latest = message;
+    this.showSoon();
   }
 
-  /** Ten times a second at most, and once more after the last. */
-  private drawSoon(): void {
+  /** Ten times a second at most, and always the last. */
+  private showSoon(): void {
     if (this.isDrawDue) return;
     this.isDrawDue = true;
     setTimeout(() => {
       this.isDrawDue = false;
-      if (this.isReplaying) return;
-      this.map.draw();
-      this.charts.draw();
-    }, DRAW_MS);
+      if (this.latest && !this.isReplaying) this.showDecision(this.latest);
+    }, Math.max(0, this.drawnAt + DRAW_MS - performance.now()));
+  }
+
+  /** All panels at once, so that they belong to one decision. */
+  private showDecision(message: Message): void {
+    const { head, blobs, shapes } = message, isOpen = head.driven === null;
+    this.drawnAt = performance.now();
+    this.bev.show(blobs.bev, shapes.bev[1]);
+    this.landscape.show(message);
+    this.map.setLights(blobs.lights);
+    this.map.move(head.x, head.y, head.yaw);
+    this.map.draw();
+    const commands = isOpen && head.by !== "hand" ? head.action : head.driven;
+    this.charts.now = [head.t, head.x, head.y, head.speed, ...(commands ?? [NaN, NaN])];
+    this.charts.draw();
+    for (const panel of ["bev", "map", "charts"]) say($(`${panel}-tick`), `tick ${head.tick}`);
   }
 
   private openView(): View | null {
@@ -146,12 +172,12 @@ export class Live {
 
   private addCameras(): void {
     $("cameras").append(...CAMERAS.map((name) => {
-      const button = make("button", { type: "button", textContent: name, role: "radio", ariaChecked: String(name === "chase") });
+      const button = make("button", { type: "button", textContent: name, role: "radio" });
       button.onclick = () => this.chooseCamera(name);
       return button;
     }));
-    const wanted = CAMERAS.find((it) => it === asked("camera"));
-    if (wanted) this.chooseCamera(wanted);
+    rove($("cameras"));
+    this.chooseCamera(CAMERAS.find((it) => it === asked("camera")) ?? "chase");
   }
 }
 

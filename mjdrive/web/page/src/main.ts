@@ -8,21 +8,25 @@ import { Keys } from "./keys";
 import { Link, type State } from "./link";
 import { Live } from "./live";
 import { Replay } from "./replay";
+import { markChosen, rove } from "./roving";
 import { Runs } from "./runs";
 
 const TABS = ["live", "episodes", "runs"] as const;
 type Tab = (typeof TABS)[number];
 const NOTE_MS = 6000;
+const MOST_LOADS = 3; // of scenes in a row, where what is driven changes meanwhile
 
 const send = (command: object): void => link.send(command);
 const live = new Live(send, (time) => replay.seek(time));
 const controls = new Controls(send);
 const replay = new Replay(live, note);
-const episodes = new Episodes((name) => { choose("live"); void replay.open(name); }, (line) => note(line, true));
+const episodes = new Episodes((name) => { controls.giveBack(); choose("live"); void replay.open(name); }, (line) => note(line, true));
 const runs = new Runs();
 const slow = $<HTMLInputElement>("slow");
 let state: State | undefined;
+let loading: Promise<void> | undefined;
 
+remember({}); // no token
 slow.checked = asked("link") === "slow";
 slow.onchange = () => { sayLink(); remember({ link: slow.checked ? "slow" : null }); };
 
@@ -34,7 +38,8 @@ const link = new Link({
   status: (line, isLive) => {
     $("status").textContent = line;
     document.body.classList.toggle("lost", !isLive);
-    if (isLive && slow.checked) sayLink(); // each connection begins as a full one
+    if (!isLive) { controls.setLost(); live.setLost(); keys.setDriving(false); }
+    else if (slow.checked) sayLink(); // each connection begins as a full one
   },
 });
 
@@ -42,7 +47,8 @@ const keys = new Keys({ hold: (command) => link.hold(command), giveBack: () => c
   Space: () => (replay.isOpen ? replay.toggle() : controls.pause()),
   ".": () => (replay.isOpen ? replay.stepBy(1) : controls.step()), ",": () => { if (replay.isOpen) replay.stepBy(-1); },
   Backspace: () => (replay.isOpen ? replay.stepBy(-Infinity) : controls.reset()), Escape: () => { if (replay.isOpen) replay.close(); },
-  t: () => controls.wheel(), Enter: () => controls.keep(), Delete: () => controls.drop(),
+  t: () => { if (!replay.isOpen) controls.wheel(); },
+  Enter: () => { if (!replay.isOpen) controls.keep(); }, Delete: () => { if (!replay.isOpen) controls.drop(); },
   c: () => live.nextCamera(), "?": toggleHelp, "1": () => choose("live"), "2": () => choose("episodes"), "3": () => choose("runs"),
 });
 
@@ -53,8 +59,15 @@ function showState(told: State): void {
   live.setState(told);
   keys.setDriving(told.wheel === "yours");
   $("status").textContent = `live · page ${told.you}${told.pages > 1 ? ` of ${told.pages} open` : ""}`;
-  if (isFirst) void controls.begin().catch((error: Error) => note(error.message, true));
+  remember({ town: told.town, policy: told.policy, seed: told.seed, speed: told.speed === 1 ? null : told.speed });
+  if (isFirst) controls.begin().catch(complain);
+  if (live.town !== told.town && !replay.isOpen) void loadScene(); // the server may have been started anew, with another town
 }
+
+const complain = (error: Error): void => note(error.message, true);
+
+/** What can be chosen, as it is by now. */
+function refresh(): void { controls.refresh().catch(complain); }
 
 function sayLink(): void { send({ op: "slow", on: slow.checked }); }
 
@@ -68,20 +81,26 @@ function note(line: string, isError: boolean): void {
 }
 
 function choose(tab: Tab): void {
-  for (const it of TABS) {
-    $(it).hidden = it !== tab;
-    $(`tab-${it}`).setAttribute("aria-selected", String(it === tab));
-  }
+  for (const it of TABS) $(it).hidden = it !== tab;
+  markChosen($("tabs"), (it) => it.id === `tab-${tab}`);
   remember({ tab: tab === "live" ? null : tab });
-  const loading = tab === "episodes" ? episodes.load() : tab === "runs" ? runs.load() : undefined;
-  loading?.catch((error: Error) => note(error.message, true));
-  if (tab === "live") live.redraw();
+  const reading = tab === "episodes" ? episodes.load() : tab === "runs" ? runs.load() : undefined;
+  reading?.catch(complain);
+  if (tab !== "live") return;
+  live.redraw();
+  if (state) refresh();
 }
 
-async function loadScene(): Promise<void> {
-  try {
+/** Load the scene of what is driven, once at a time. */
+function loadScene(): Promise<void> {
+  return (loading ??= fetchScene().catch(complain).finally(() => (loading = undefined)));
+}
+
+async function fetchScene(): Promise<void> {
+  for (let count = 0; count < MOST_LOADS; count++) {
     await live.loadScene();
-  } catch (error) { note((error as Error).message, true); }
+    if (!state || replay.isOpen || live.town === state.town) return;
+  }
 }
 
 /** Go on with what is driven now. */
@@ -92,6 +111,9 @@ async function showLive(): Promise<void> {
 }
 
 for (const it of TABS) $(`tab-${it}`).onclick = () => choose(it);
+for (const it of ["town", "policy"]) $(it).onfocus = refresh;
+rove($("tabs"));
+markChosen($("tabs"), (it) => it.id === "tab-live");
 $("help-open").onclick = toggleHelp;
 $("note").querySelector("button")!.onclick = () => ($("note").hidden = true);
 addEventListener("live-again", () => void showLive());

@@ -5,10 +5,11 @@ import { $, make, options, say } from "./dom";
 import { described, look } from "./infractions";
 import type { Infraction } from "./link";
 import type { Live } from "./live";
+import { COLUMNS } from "./rows";
 
-const COLUMNS = 6;
 const STEP_MS = 100;
 const SPEEDS = [0.5, 1, 2, 4];
+const REMEMBER_STEPS = 10; // browsers stop pages that rewrite their address at every frame
 
 export class Replay {
   private episode?: Message;
@@ -20,17 +21,15 @@ export class Replay {
   private readonly bar = make("input", { type: "range", min: "0", step: "1", value: "0", ariaLabel: "Time in the episode" });
   private readonly play = make("button", { type: "button", textContent: "Play", title: "Space" });
   private readonly factor = make("select", { ariaLabel: "Speed of the replay" });
-  private readonly title = make("span", { className: "title" });
-  private readonly time = make("output", { className: "time", ariaLabel: "Time in the episode" });
+  private readonly time = make("output", { className: "time", ariaLabel: "Time in the episode", ariaLive: "off" });
   private readonly marks = make("div", { className: "marks" });
 
   constructor(private readonly live: Live, private readonly note: (line: string, isError: boolean) => void) {
-    const close = make("button", { type: "button", textContent: "Back to live" });
-    close.onclick = () => this.close();
+    $("live-again").onclick = () => this.close();
     this.play.onclick = () => this.toggle();
     this.bar.oninput = () => this.go(Number(this.bar.value));
     options(this.factor, SPEEDS.map((it) => [String(it), `${it}×`]), "1");
-    $("replay").append(this.title, this.play, this.factor, make("div", { className: "track" }, this.bar, this.marks), this.time, close);
+    $("replay").append(this.play, this.factor, make("div", { className: "track" }, this.bar, this.marks), this.time);
   }
 
   get isOpen(): boolean { return this.episode !== undefined; }
@@ -45,25 +44,27 @@ export class Replay {
     const { head, blobs } = this.episode;
     this.live.isReplaying = true;
     document.body.classList.add("replaying");
-    $("replay").hidden = false;
+    $("replay").hidden = $("replaying").hidden = false;
     $("badge").hidden = $("fault").hidden = true;
     this.live.landscape.forget("An episode keeps what was seen and done, not what was thought.");
     this.live.map.setTrail(blobs.rows as Float32Array);
     this.live.charts.set(blobs.rows);
     this.live.setInfractions(head.infractions as Infraction[]);
-    say(this.title, `${head.policy} in ${head.town}, seed ${head.seed}`);
+    say($("replay-title"), `${head.policy} in ${head.town}, seed ${head.seed}`);
+    $("replay-title").title = head.name;
     this.bar.max = String(this.length - 1);
     this.mark(head.infractions as Infraction[]);
     remember({ episode: name });
     if (from === undefined) this.go(0);
     else this.seek(from);
+    this.play.focus();
   }
 
   close(): void {
     this.episode = undefined;
     this.isPlaying = this.live.isReplaying = false;
     document.body.classList.remove("replaying");
-    $("replay").hidden = true;
+    $("replay").hidden = $("replaying").hidden = true;
     $("badge").hidden = false;
     say(this.play, "Play");
     remember({ episode: null, t: null });
@@ -76,6 +77,7 @@ export class Replay {
     say(this.play, this.isPlaying ? "Pause" : "Play");
     this.lastFrame = performance.now();
     if (this.isPlaying) requestAnimationFrame(this.frame);
+    else this.rememberTime();
   }
 
   /** Go to a time [s] of the episode. */
@@ -102,18 +104,28 @@ export class Replay {
 
   private go(step: number): void {
     this.step = Math.min(Math.max(step, 0), this.length - 1);
-    const row = this.row(this.step), { poses } = this.episode!.blobs, each = 7 * this.episode!.shapes.poses[1];
-    const pose = (poses as Float32Array).subarray(each * this.step, each * (this.step + 1));
+    const row = this.row(this.step), pose = this.slice("poses") as Float32Array, lights = this.slice("lights") as Uint8Array;
     this.bar.value = String(this.step);
+    this.bar.ariaValueText = `${row[0].toFixed(1)} s`;
     this.live.view?.setPose(pose, !this.isPlaying);
+    this.live.view?.town?.showLights(lights);
     this.live.showMotion(row[0], row[3], row[4], row[5]);
-    this.live.map.move(row[1], row[2], yaw(pose), false);
+    this.live.map.setLights(lights);
+    this.live.map.move(row[1], row[2], yaw(pose), (this.step + 1) / this.length);
     this.live.map.draw();
     this.live.charts.draw(row[0]);
     say(this.time, `${row[0].toFixed(1)} s`);
-    say($("bev-tick"), `step ${this.step}`);
-    remember({ t: row[0].toFixed(1) });
+    for (const panel of ["map", "charts"]) say($(`${panel}-tick`), `step ${this.step}`);
+    if (!this.isPlaying || this.step % REMEMBER_STEPS === 0) this.rememberTime();
     void this.fetchView();
+  }
+
+  private rememberTime(): void { if (this.isOpen) remember({ t: this.row(this.step)[0].toFixed(1) }); }
+
+  /** What belongs to the step that is shown. */
+  private slice(name: "poses" | "lights"): ArrayLike<number> {
+    const all = this.episode!.blobs[name], each = all.length / this.length;
+    return all.subarray(each * this.step, each * (this.step + 1));
   }
 
   /** Fetch what the policy saw here; while one is on its way, the next waits. */
@@ -123,7 +135,7 @@ export class Replay {
     const wanted = this.step, { name } = this.episode.head;
     try {
       const { blobs, shapes } = await fetchMessage(`api/episode/view?name=${encodeURIComponent(name)}&step=${wanted}`);
-      if (this.isOpen) this.live.bev.show(blobs.bev, shapes.bev[1]);
+      if (this.isOpen) { this.live.bev.show(blobs.bev, shapes.bev[1]); say($("bev-tick"), `step ${wanted}`); }
     } catch (error) { this.note((error as Error).message, true); } finally { this.isFetching = false; }
     if (this.isOpen && this.step !== wanted) void this.fetchView();
   }

@@ -1,4 +1,5 @@
 // The runs tab: training curves of several runs over each other, and how drives of each policy went.
+import { askedAll, remember } from "./address";
 import { fetchJson } from "./codec";
 import { Curves, type Epoch, type Run } from "./curves";
 import { $, make } from "./dom";
@@ -11,7 +12,7 @@ const FIRST_SHOWN = 8;
 
 export class Runs {
   private runs: Run[] = [];
-  private readonly chosen = new Set<string>();
+  private chosen?: Set<string>; // until there are runs to choose from
   private readonly curves = make("div", { className: "curves" });
   private readonly list = make("div", { className: "block" });
   private readonly evaluations = make("div", { className: "block" });
@@ -29,14 +30,14 @@ export class Runs {
     this.evaluations.replaceChildren(evaluationTable(drives));
     $("curves-say").hidden = this.curves.hidden = !this.runs.length;
     if (!all.length) return this.list.replaceChildren(make("div", { className: "empty" }, make("strong", { textContent: "No training run yet." }), " ", make("code", { textContent: "mjdrive train da-ibc" }), " makes one."));
-    if (!this.chosen.size) for (const it of this.runs.slice(0, FIRST_SHOWN)) this.chosen.add(it.name);
+    if (this.runs.length) this.chosen ??= new Set(askedAll("run") ?? this.firstShown);
     this.list.replaceChildren(this.table(), ...unreadable(all.filter((it) => it.error)));
     this.show();
   }
 
   private table(): Node {
     return table(this.runs, [
-      { title: "", value: (it) => (this.chosen.has(it.name) ? 0 : 1), show: (it) => this.switch(it) },
+      { title: "", value: (it) => (this.chosen?.has(it.name) ? 0 : 1), show: (it) => this.switch(it) },
       { title: "Run", value: (it) => it.name }, { title: "Method", value: (it) => it.method },
       { title: "Seed", value: (it) => it.seed, numeric: true },
       { title: "Epochs", value: (it) => it.epochs.length, numeric: true },
@@ -47,17 +48,25 @@ export class Runs {
   }
 
   private switch(run: Run): Node {
-    const box = make("input", { type: "checkbox", checked: this.chosen.has(run.name), ariaLabel: `Show ${run.name}` });
+    const box = make("input", { type: "checkbox", checked: this.chosen?.has(run.name) ?? false, ariaLabel: `Show ${run.name}` });
     const label = make("label", { className: "swatch" }, box);
     label.style.setProperty("--swatch", this.color(run));
-    box.onchange = () => { if (box.checked) this.chosen.add(run.name); else this.chosen.delete(run.name); this.show(); };
+    box.onchange = () => { if (box.checked) this.chosen?.add(run.name); else this.chosen?.delete(run.name); this.rememberChosen(); this.show(); };
     return label;
+  }
+
+  private get firstShown(): string[] { return this.runs.slice(0, FIRST_SHOWN).map((it) => it.name); }
+
+  /** Which runs are shown, if not those that are shown at first; an empty name means none. */
+  private rememberChosen(): void {
+    const names = this.runs.map((it) => it.name).filter((it) => this.chosen?.has(it));
+    remember({ run: String(names) === String(this.firstShown) ? null : names.length ? names : [""] });
   }
 
   private color(run: Run): string { return PALETTE[this.runs.indexOf(run) % PALETTE.length]; }
 
   private show(): void {
-    const shown = this.runs.filter((it) => this.chosen.has(it.name) && it.epochs.length);
+    const shown = this.runs.filter((it) => this.chosen?.has(it.name) && it.epochs.length);
     const methods = [...new Set(shown.map((it) => it.method))];
     this.curves.replaceChildren(...methods.map((method) => new Curves(method, shown.filter((it) => it.method === method), (run) => this.color(run)).element));
   }

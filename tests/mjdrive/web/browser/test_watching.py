@@ -7,8 +7,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from mjdrive.town import library, signals
+
 pytestmark = pytest.mark.timeout(900)
 
+TICKS = "['bev', 'energy', 'map', 'charts'].map(it => document.querySelector(`#${it}-tick`).textContent)"
 PIXELS = "[...document.querySelector('#bev').getContext('2d').getImageData(0, 0, 192, 192).data]"
 
 
@@ -33,6 +36,10 @@ def test_the_car_is_seen_in_its_town_from_four_sides(bench: Any) -> None:
         places.add(str([round(it, 2) for it in page.evaluate(f"[...{look}]")]))
         assert ("camera=" in page.url) == (name != "chase")
     assert len(places) == 4
+    page.focus("#cameras [aria-checked=true]")
+    page.keyboard.press("ArrowLeft")
+    assert page.evaluate("document.activeElement.textContent") == "orbit"
+    assert page.evaluate("mjdrive.live.view.cameras.name") == "orbit"
     page.close()
 
 
@@ -41,6 +48,67 @@ def test_panels_follow_the_drive_of_the_server(bench: Any) -> None:
     bench.see(f"parseInt(document.querySelector('#bev-tick').textContent.slice(5)) > {tick}")
     shown = int(bench.page.inner_text("#bev-tick").removeprefix("tick "))
     bench.wait(lambda: bench.watcher.panel["tick"] >= shown, "the server to have been there")
+
+
+def test_all_panels_show_one_decision(bench: Any) -> None:
+    for _ in range(3):
+        tick = bench.watcher.panel["tick"]
+        bench.see(f"parseInt(document.querySelector('#map-tick').textContent.slice(5)) > {tick}")
+        assert len(set(bench.page.evaluate(TICKS))) == 1
+    bench.page.click("#pause")
+    panel = bench.watcher.pause()
+    bench.see(f"document.querySelector('#charts-tick').textContent === 'tick {panel['tick']}'")
+    assert set(bench.page.evaluate(TICKS)) == {f"tick {panel['tick']}"}
+    now = [panel["t"], panel["x"], panel["y"], panel["speed"], *panel["action"]]
+    assert bench.page.evaluate("mjdrive.live.charts.now") == now
+
+
+def test_charts_and_trail_of_a_page_that_watched_are_those_of_one_that_comes_later(
+    bench: Any,
+) -> None:
+    bench.page.select_option("#speed-factor", "8")  # more steps than panels
+    bench.page.click("#reset")
+    bench.wait(lambda: bench.watcher.panel["tick"] < 10, "the beginning")
+    bench.wait(lambda: bench.watcher.panel["tick"] > 30, "some way")
+    bench.page.click("#pause")
+    tick = bench.watcher.pause()["tick"]
+    bench.page.select_option("#speed-factor", "1")
+    other = bench.open()
+    for page in (bench.page, other):
+        page.wait_for_function(
+            f"document.querySelector('#charts-tick').textContent === 'tick {tick}'", polling=100
+        )
+        assert page.evaluate("mjdrive.live.charts.rows.length") == 6 * tick
+        assert page.evaluate("mjdrive.live.map.trail.length") == 2 * tick
+    rows = "[...mjdrive.live.charts.rows, ...mjdrive.live.map.trail]"
+    assert bench.page.evaluate(rows) == other.evaluate(rows)
+    other.close()
+
+
+def test_lights_change_on_the_map_as_the_town_says(bench: Any) -> None:
+    town = library.load("town03")
+
+    def shown(time: float, seed: int) -> list[int]:
+        lights = signals.all_at(town, time + signals.phase(town, seed))
+        return [int(it) for it in lights.values()]
+
+    seed = next(it for it in range(1000) if shown(0.0, it) != shown(1.0, it))  # some change soon
+    bench.page.click("#pause")
+    bench.watcher.until(paused=True)
+    bench.page.fill("#seed", str(seed))
+    bench.page.keyboard.press("Enter")
+    bench.watcher.until(seed=seed)
+    seen = []
+    for is_later in (False, True):
+        if is_later:
+            bench.page.click("#pause")
+            bench.wait(lambda: bench.watcher.panel["t"] >= 1.0, "a light to change")
+            bench.page.click("#pause")
+        panel = bench.watcher.pause()
+        bench.see(f"document.querySelector('#map-tick').textContent === 'tick {panel['tick']}'")
+        seen.append(bench.page.evaluate("[...mjdrive.live.map.lights]"))
+        assert seen[-1] == shown(panel["t"], seed)
+    assert seen[0] != seen[1]
 
 
 def test_paused_it_waits_and_a_step_is_one_decision(bench: Any) -> None:
@@ -56,6 +124,7 @@ def test_paused_it_waits_and_a_step_is_one_decision(bench: Any) -> None:
 def test_speed_and_seed_are_chosen_for_the_server(bench: Any) -> None:
     bench.page.select_option("#speed-factor", "4")
     bench.watcher.until(speed=4.0)
+    bench.see("location.search.includes('speed=4')")
     bench.page.select_option("#speed-factor", "1")
     bench.watcher.until(speed=1.0)
     seed = bench.watcher.state["seed"] + 1
@@ -98,7 +167,7 @@ def test_the_search_is_shown_by_iteration_and_a_click_forces_an_action(bench: An
     width, height = box["width"] - 90, box["height"] - 40  # the plot, between its axes
     bench.page.click("#energy", position={"x": 44 + 0.25 * width, "y": 6 + 0.75 * height})
     bench.wait(lambda: bench.watcher.panel["tick"] == tick + 1, "the forced step")
-    assert bench.watcher.panel["driven"] == pytest.approx([-0.5, 0.5], abs=0.03)
+    assert bench.watcher.pose["action"] == pytest.approx([-0.5, 0.5], abs=0.03)
 
 
 def test_arrow_keys_and_enter_force_an_action_without_a_mouse(bench: Any) -> None:
@@ -111,7 +180,7 @@ def test_arrow_keys_and_enter_force_an_action_without_a_mouse(bench: Any) -> Non
         bench.page.keyboard.press(key)
     bench.wait(lambda: bench.watcher.panel["tick"] == tick + 1, "the forced step")
     wanted = [max(acceleration - 1 / 32, -1.0), min(steering + 1 / 32, 1.0)]
-    assert bench.watcher.panel["driven"] == pytest.approx(wanted, abs=1e-3)
+    assert bench.watcher.pose["action"] == pytest.approx(wanted, abs=1e-3)
 
 
 def test_a_slow_link_gets_the_same_pictures_packed(bench: Any) -> None:
