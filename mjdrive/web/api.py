@@ -2,6 +2,7 @@
 
 from collections.abc import Awaitable, Callable
 from functools import lru_cache
+from urllib.parse import quote
 
 import anyio.to_thread
 from starlette.requests import Request
@@ -70,7 +71,8 @@ class Api:
         name = request.query_params.get("town", session.choice.town)
         if name != session.choice.town:
             return await _binary(lambda: _scene(name))
-        tag = f'"{session.simulation.town.digest[:16]}-{wire.VERSION}"'
+        # With the name, which is in the scene and not in the digest: a folder may be a copy of another.
+        tag = f'"{quote(name)}-{session.simulation.town.digest[:16]}-{wire.VERSION}"'
         headers = {"etag": tag, "cache-control": "no-cache"}
         if request.headers.get("if-none-match") == tag:
             return Response(status_code=304, headers=headers)

@@ -49,6 +49,13 @@ def test_what_is_done_is_told_with_the_decision_and_is_open_while_paused(desk: A
     assert (paused["driven"], paused["action"] is None) == (None, False)
 
 
+def test_a_reset_while_paused_shows_the_car_where_it_begins(desk: Any) -> None:
+    desk.turn(3)
+    desk.say("first", "pause", on=True)
+    desk.say("first", "reset")
+    assert told(desk, "pose")[-1][0]["t"] == told(desk, "panel")[-1][0]["t"] == 0.0
+
+
 class Asked:
     """Counts how often the network is asked."""
 

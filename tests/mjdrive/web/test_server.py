@@ -17,7 +17,7 @@ from mjdrive.town import library
 from mjdrive.web import browsing, server, wire
 from mjdrive.web.browsing import Shelf
 from mjdrive.web.guard import LOOPBACK, Access
-from mjdrive.web.session import Session
+from mjdrive.web.session import Choice, Session
 from models import checkpoint
 
 HOME = "http://127.0.0.1:8123"
@@ -95,6 +95,16 @@ def test_a_page_is_told_everything_as_soon_as_it_comes(client: TestClient) -> No
     assert wire.unpack(scene.content)[0]["town"] == "town03"
     again = client.get("/api/scene", headers={"if-none-match": scene.headers["etag"]})
     assert (again.status_code, again.content) == (304, b"")
+
+
+def test_a_town_that_is_a_copy_of_another_is_another_scene(
+    client: TestClient, session: Session
+) -> None:
+    tag = client.get("/api/scene").headers["etag"]
+    session.choice = Choice("copy", "pid", 0)
+    answer = client.get("/api/scene", headers={"if-none-match": tag})
+    assert answer.status_code == 200
+    assert answer.headers["etag"] != tag
 
 
 def test_commands_are_obeyed_and_answered(client: TestClient) -> None:

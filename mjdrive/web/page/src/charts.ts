@@ -16,8 +16,8 @@ export class ChartsPanel {
   private readonly canvas = $<HTMLCanvasElement>("charts");
   private rows: number[] = [];
 
-  /** The decision that is shown: what is done now is open until it has been done. */
-  now: number[] = [];
+  /** The row of the moment that is shown; what is done then may be open. Later ones are not drawn. */
+  now: ArrayLike<number> = [];
 
   set(rows: ArrayLike<number>): void { this.rows = Array.from(rows); this.now = []; }
 
@@ -27,8 +27,9 @@ export class ChartsPanel {
     if (surplus > 0) this.rows.splice(0, Math.ceil(surplus / COLUMNS) * COLUMNS);
   }
 
-  /** Draw the last seconds before a time [s]; those before the decision that is shown if none is given. */
-  draw(until = this.now[0] ?? this.rows[this.rows.length - COLUMNS] ?? 0): void {
+  /** Draw the last seconds before the moment that is shown. */
+  draw(): void {
+    const until = this.now[0] ?? this.rows[this.rows.length - COLUMNS] ?? 0;
     if (!this.canvas.clientWidth) return;
     const { pen, width, height } = fitted(this.canvas), each = (height - BOTTOM) / CHARTS.length;
     pen.clearRect(0, 0, width, height);

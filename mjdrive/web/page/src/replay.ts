@@ -113,7 +113,8 @@ export class Replay {
     this.live.map.setLights(lights);
     this.live.map.move(row[1], row[2], yaw(pose), (this.step + 1) / this.length);
     this.live.map.draw();
-    this.live.charts.draw(row[0]);
+    this.live.charts.now = row;
+    this.live.charts.draw();
     say(this.time, `${row[0].toFixed(1)} s`);
     for (const panel of ["map", "charts"]) say($(`${panel}-tick`), `step ${this.step}`);
     if (!this.isPlaying || this.step % REMEMBER_STEPS === 0) this.rememberTime();

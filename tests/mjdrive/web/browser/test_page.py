@@ -1,6 +1,7 @@
 """The page as such: what it may load, what it does without WebGL, on small screens, and for those who do not see it."""
 
 from typing import Any
+from urllib.parse import parse_qsl, urlsplit
 
 import pytest
 
@@ -11,6 +12,10 @@ NAMELESS = """
   .filter(it => it.checkVisibility())
   .filter(it => !(it.ariaLabel || it.textContent.trim() || it.labels?.length || it.getAttribute("aria-labelledby")))
   .map(it => it.outerHTML)
+"""
+ANNOUNCED = """
+[...document.querySelectorAll("output, [role=status], [role=alert], [aria-live]")]
+  .filter(it => it.ariaLive !== "off" && it.checkVisibility()).map(it => it.textContent)
 """
 OVERFLOW = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
 
@@ -53,6 +58,35 @@ def test_without_webgl_the_panels_still_work(bench: Any) -> None:
     assert plain.locator("#bev").bounding_box()["height"] > 100
     assert "tick" in plain.inner_text("#bev-tick")
     plain.close()
+
+
+def test_the_address_holds_what_is_shown_and_no_token(bench: Any) -> None:
+    other = bench.open("token=secret&policy=mpc&camera=top")
+    state = bench.watcher.state
+    shown = {key: str(state[key]) for key in ("town", "policy", "seed")}
+    query = dict(parse_qsl(urlsplit(other.url).query))
+    assert query == {**shown, "camera": "top"}  # it watches, so its address cannot choose
+    other.close()
+
+
+def test_arrow_keys_go_through_the_tabs(bench: Any) -> None:
+    page = bench.page
+    page.focus("#tab-live")
+    for key, tab in (("ArrowRight", "Episodes"), ("End", "Runs"), ("ArrowRight", "Live")):
+        page.keyboard.press(key)
+        assert page.evaluate("document.activeElement.textContent") == tab
+        assert page.is_visible(f"#{tab.lower()}")
+    stops = "[...document.querySelectorAll('[role=tab], [role=radio]')].filter(it => it.tabIndex === 0).length"
+    assert page.evaluate(stops) == 2  # one of the tabs, one of the cameras
+
+
+def test_nothing_is_announced_again_and_again_while_somebody_drives(bench: Any) -> None:
+    bench.take_the_wheel()
+    bench.see("document.querySelector('#recorded').textContent.includes('1 s')")
+    before = bench.page.evaluate(ANNOUNCED)
+    assert any("You drive" in it for it in before)
+    bench.see("document.querySelector('#recorded').textContent.includes('3 s')")
+    assert bench.page.evaluate(ANNOUNCED) == before
 
 
 def test_keys_open_the_help(bench: Any) -> None:

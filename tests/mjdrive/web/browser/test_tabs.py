@@ -1,6 +1,7 @@
 """Episodes and runs: lists, replays, figures."""
 
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,11 @@ def test_an_episode_is_found_by_its_words(bench: Any) -> None:
     bench.page.fill("#episodes [type=search]", "searcher drive-1")
     bench.see("document.querySelectorAll('#episodes tbody tr').length === 1")
     assert "drives/drive-1/episode" in bench.page.inner_text("#episodes tbody")
+    other = bench.open(bench.page.url.split("?", 1)[1])
+    other.wait_for_function(
+        "document.querySelectorAll('#episodes tbody tr').length === 1", polling=100
+    )
+    other.close()
     bench.page.fill("#episodes [type=search]", "nothing is called that")
     bench.page.wait_for_selector("text=No episode has all of these words")
     bench.page.fill("#episodes [type=search]", "")
@@ -82,6 +88,21 @@ def test_a_damaged_episode_is_listed_with_the_reason(bench: Any) -> None:
     broken.unlink()
 
 
+def test_a_run_that_was_trained_meanwhile_can_be_chosen(bench: Any) -> None:
+    run = bench.folder / "runs" / "trained-later"
+    listed = (
+        "[...document.querySelector('#policy').options].some(it => it.value === 'trained-later')"
+    )
+    assert not bench.page.evaluate(listed)
+    shutil.copytree(run.with_name("searcher"), run)
+    bench.page.focus("#policy")
+    bench.see(listed)
+    shutil.rmtree(run)
+    bench.page.click("#tab-runs")
+    bench.page.click("#tab-live")
+    bench.see(f"!{listed}")
+
+
 def test_runs_and_drives_are_compared_by_the_figures_on_disk(bench: Any) -> None:
     bench.page.click("#tab-runs")
     bench.page.wait_for_selector("[aria-label^='Loss of da-ibc by epoch: searcher']")
@@ -94,4 +115,8 @@ def test_runs_and_drives_are_compared_by_the_figures_on_disk(bench: Any) -> None
     assert row[:7] == ["searcher", "town03", "2", "1 of 2", "200 ± 141", "200 ± 141", f"{rate:.2f}"]
     bench.page.uncheck("[aria-label='Show searcher']")
     bench.see("!document.querySelector('#runs canvas')")
+    other = bench.open(bench.page.url.split("?", 1)[1])
+    other.wait_for_selector("[aria-label='Training runs']")
+    assert not other.is_checked("[aria-label='Show searcher']")
+    other.close()
     bench.page.check("[aria-label='Show searcher']")

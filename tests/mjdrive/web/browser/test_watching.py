@@ -92,12 +92,14 @@ def test_lights_change_on_the_map_as_the_town_says(bench: Any) -> None:
         lights = signals.all_at(town, time + signals.phase(town, seed))
         return [int(it) for it in lights.values()]
 
-    seed = next(it for it in range(1000) if shown(0.0, it) != shown(1.0, it))  # some change soon
+    now = bench.watcher.state["seed"]
+    seed = next(it for it in range(1000) if it != now and shown(0.0, it) != shown(1.0, it))
     bench.page.click("#pause")
     bench.watcher.until(paused=True)
     bench.page.fill("#seed", str(seed))
     bench.page.keyboard.press("Enter")
     bench.watcher.until(seed=seed)
+    bench.wait(lambda: bench.watcher.pause()["t"] == 0.0, "the beginning")
     seen = []
     for is_later in (False, True):
         if is_later:
