@@ -63,8 +63,8 @@ export class Controls {
   show(state: State): void {
     this.state = state;
     this.isLost = false;
-    this.town.value = state.town;
-    this.policy.value = state.policy;
+    choose(this.town, state.town);
+    choose(this.policy, state.policy);
     if (document.activeElement !== this.seed) this.seed.value = String(state.seed);
     this.factor.value = String(state.speed);
     say($("pause"), state.paused ? "Play" : "Pause");
@@ -115,8 +115,16 @@ export class Controls {
   }
 }
 
+const namesIn = (select: HTMLSelectElement): string[] => [...select.options].map((it) => it.value);
+
 /** Names to choose from; a list that is open is left alone where it has not changed. What is driven is there, whatever was deleted since. */
 function fill(select: HTMLSelectElement, names: string[], chosen: string | undefined): void {
   const all = chosen === undefined ? names : [...new Set([...names, chosen])];
-  if (String(all) !== String([...select.options].map((it) => it.value))) options(select, all.map((it) => [it, it]), chosen ?? "");
+  if (String(all) !== String(namesIn(select))) options(select, all.map((it) => [it, it]), chosen ?? "");
+}
+
+/** Show what is driven, also where that came into the list since it was read. */
+function choose(select: HTMLSelectElement, name: string): void {
+  if (!namesIn(select).includes(name)) fill(select, namesIn(select), name);
+  select.value = name;
 }

@@ -25,6 +25,7 @@ const runs = new Runs();
 const slow = $<HTMLInputElement>("slow");
 let state: State | undefined;
 let loading: Promise<void> | undefined;
+let wasLost = false;
 
 remember({}); // no token
 slow.checked = asked("link") === "slow";
@@ -38,7 +39,7 @@ const link = new Link({
   status: (line, isLive) => {
     $("status").textContent = line;
     document.body.classList.toggle("lost", !isLive);
-    if (!isLive) { controls.setLost(); live.setLost(); keys.setDriving(false); }
+    if (!isLive) { wasLost = true; controls.setLost(); live.setLost(); keys.setDriving(false); }
     else if (slow.checked) sayLink(); // each connection begins as a full one
   },
 });
@@ -61,7 +62,9 @@ function showState(told: State): void {
   $("status").textContent = `live · page ${told.you}${told.pages > 1 ? ` of ${told.pages} open` : ""}`;
   remember({ town: told.town, policy: told.policy, seed: told.seed, speed: told.speed === 1 ? null : told.speed });
   if (isFirst) controls.begin().catch(complain);
-  if (live.town !== told.town && !replay.isOpen) void loadScene(); // the server may have been started anew, with another town
+  // The server may have been started anew, with another town and other runs.
+  if (live.town !== told.town && !replay.isOpen) void loadScene();
+  if (wasLost) { wasLost = false; refresh(); }
 }
 
 const complain = (error: Error): void => note(error.message, true);

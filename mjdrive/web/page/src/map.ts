@@ -9,7 +9,7 @@ const MARGIN = 10;
 const LIGHTS = ["#37d67a", "#f5c542", "#ff5c4d"];
 const LIGHT_PX = [1.5, 1.8, 2.2]; // size tells a red one, too, for those who see no red
 const MOST_POINTS = 6000;
-const FAINT = 0.3; // of a replay's way still to come
+const FAINT = 0.4; // of a replay's way still to come
 
 export class MapPanel {
   private readonly canvas = $<HTMLCanvasElement>("map");

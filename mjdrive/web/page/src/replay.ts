@@ -57,7 +57,7 @@ export class Replay {
     remember({ episode: name });
     if (from === undefined) this.go(0);
     else this.seek(from);
-    this.play.focus();
+    if (from === undefined) this.play.focus(); // what was clicked has gone
   }
 
   close(): void {
