@@ -155,6 +155,10 @@ class GuestMind:
     def take_over(self, simulation: Simulation) -> None:
         """Nothing to do: it sees where the car is."""
 
+    def chosen_from(self) -> Density | None:
+        """Its protocol knows actions alone."""
+        return None
+
     def density(self, observation: Observation) -> Density | None:
         """Its protocol knows actions alone."""
         del observation
