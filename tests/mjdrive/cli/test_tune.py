@@ -6,8 +6,13 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+from mjdrive import config
 from mjdrive.cli.main import main
+from mjdrive.config import PidConfig
 from mjdrive.episodes import store
+from mjdrive.tuning.gains import Evidence, Gains, plain
+from mjdrive.tuning.marks import Marks
+from mjdrive.vehicle import cars
 
 DRIVE = ("drive", "--town", "town02", "--steps", "2")
 
@@ -82,11 +87,15 @@ def test_gains_of_another_car_are_refused_by_drive_and_collect(workplace):
     ],
 )
 def test_gains_that_make_no_sense_are_refused_before_anything_drives(
-    workplace, name, value, expected
+    tmp_path, monkeypatch, name, value, expected
 ):
-    gains = json.loads((workplace / "tunings/pid-default/gains.json").read_text())
-    gains["settings"][name] = value
-    (workplace / "edited.json").write_text(json.dumps(gains))
+    monkeypatch.chdir(tmp_path)
+    marks = Marks(0.1, 0.5, 0.3, 1.5, 60.0, 0.1, 0, 3.0)
+    evidence = Evidence("town02", "", before=marks, after=marks)
+    settings = {**plain(PidConfig()), name: value}
+    digest = cars.load().digest
+    made = Gains("pid", "default", digest, settings, (name,), evidence, None, 2, 0, {}, {})
+    config.write_json(made, tmp_path / "edited.json")
     for words in (
         (*DRIVE, "--policy", "pid", "--out", "f"),
         ("collect", "--town", "town02", "--preset", "quick"),
@@ -94,8 +103,7 @@ def test_gains_that_make_no_sense_are_refused_before_anything_drives(
         refused = run(*words, "--gains", "edited.json")
         assert (refused.exit_code, expected in refused.stderr) == (2, True), refused.stderr
         assert "Tune again: `mjdrive tune pid --car default`" in refused.stderr
-    assert not (workplace / "f").exists()
-    assert not (workplace / "data").exists()
+    assert [path.name for path in tmp_path.iterdir()] == ["edited.json"]
 
 
 def test_unknown_expert_is_refused_before_anything_runs(workplace):
