@@ -157,10 +157,12 @@ def test_scores_do_not_depend_on_the_number_of_threads(head, features, points):
     assert all(torch.equal(scores[0], other) for other in scores[1:])
 
 
-def test_an_observation_has_the_same_scores_alone(head, features):
+def test_an_observation_has_the_same_scores_alone_up_to_rounding(head, features):
     together = tiled(head, features, 65)
     alone = [tiled(head, row[None], 65) for row in features]
-    torch.testing.assert_close(together, torch.cat(alone), rtol=1e-6, atol=1e-6)
+    # What comes of the features is one product, and those of one row round otherwise than those of several.
+    atol = 2e-5 * together.std().item()
+    torch.testing.assert_close(together, torch.cat(alone), rtol=1e-5, atol=atol)
 
 
 def test_scores_need_no_gradients_and_have_none(head, features):
