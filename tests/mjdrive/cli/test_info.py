@@ -67,13 +67,13 @@ def test_table_shows_the_same_facts() -> None:
 
 
 @pytest.mark.parametrize(("is_fast", "expected"), [(True, "bfloat16"), (False, "float32")])
-def test_number_format_is_what_the_machine_is_fast_at(
+def test_number_format_is_what_the_machine_is_fast_at_and_float32_for_a_grid(
     is_fast: bool, expected: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(hardware, "bfloat16_is_fast", lambda device="cpu": is_fast)
     facts = told()
     assert facts["trains in"] == expected
-    assert facts["scores actions in"].startswith(expected)
+    assert facts["scores actions in"] == "float32, sampler grid"
 
 
 def test_what_is_missing_is_told_with_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:

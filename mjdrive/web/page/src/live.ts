@@ -58,9 +58,12 @@ export class Live {
       const rows = message.blobs.rows as Float32Array;
       this.map.setTrail(rows);
       this.charts.set(rows);
-      this.landscape.forget();
+      // Told again because somebody else has come, it is the drive that is shown.
+      if (!rows.length || endOf(rows) < this.toldUntil) {
+        this.landscape.forget();
+        this.latest = undefined;
+      }
       this.toldUntil = endOf(rows);
-      this.latest = undefined;
     }
   }
 
