@@ -4,10 +4,12 @@ import os
 import signal
 import threading
 import time
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+import submitit.local.local
 from squares import Number, Squares, expected, numbers
 
 from mjdrive.errors import ClusterError, DataError, WorkerError
@@ -16,8 +18,10 @@ from mjdrive.execution.slurm import SlurmExecutor
 
 
 @pytest.fixture
-def executor(tmp_path: Path) -> SlurmExecutor:
-    return SlurmExecutor(cluster="local", folder=tmp_path / "slurm", poll=0.1)
+def executor(tmp_path: Path) -> Iterator[SlurmExecutor]:
+    yield SlurmExecutor(cluster="local", folder=tmp_path / "slurm", poll=0.1)
+    for process in list(submitit.local.local._PROCESSES.values()):  # those that were told to end
+        process.wait(timeout=60)
 
 
 def test_every_job_is_done_once_and_nothing_is_left(
