@@ -19,7 +19,7 @@ export class ChartsPanel {
   /** The row of the moment that is shown; what is done then may be open. Later ones are not drawn. */
   now: ArrayLike<number> = [];
 
-  set(rows: ArrayLike<number>): void { this.rows = Array.from(rows); this.now = []; }
+  set(rows: ArrayLike<number>): void { this.rows = Array.from(rows); }
 
   add(rows: Float32Array): void {
     this.rows.push(...rows);

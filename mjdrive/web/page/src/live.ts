@@ -61,6 +61,7 @@ export class Live {
       // Told again because somebody else has come, it is the drive that is shown.
       if (!rows.length || endOf(rows) < this.toldUntil) {
         this.landscape.forget();
+        this.charts.now = [];
         this.latest = undefined;
       }
       this.toldUntil = endOf(rows);

@@ -67,6 +67,8 @@ export class Replay {
     $("replay").hidden = $("replaying").hidden = true;
     $("badge").hidden = false;
     say(this.play, "Play");
+    this.live.landscape.forget();
+    this.live.charts.now = [];
     remember({ episode: null, t: null });
     dispatchEvent(new Event("live-again"));
   }
