@@ -11,13 +11,13 @@ from starlette.routing import Route
 
 from mjdrive.datatypes import Episode, Town
 from mjdrive.errors import MjdriveError, UnknownNameError
+from mjdrive.page import wire
+from mjdrive.page.replaying import episode_message, view_at
+from mjdrive.page.scene import scene_message
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import library
-from mjdrive.web import wire
 from mjdrive.web.browsing import Shelf
 from mjdrive.web.choices import policy_names
-from mjdrive.web.replaying import episode_message, view_at
-from mjdrive.web.scene import scene_message
 from mjdrive.web.simulator import Simulator
 
 BINARY = "application/octet-stream"

@@ -24,7 +24,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from mjdrive.errors import MjdriveError
-from mjdrive.web.wire import MOST_BYTES
+from mjdrive.page.wire import MOST_BYTES
 
 LEAST_SPEED, MOST_SPEED = 0.25, 8.0
 KEYS = frozenset({"up", "down", "left", "right", "brake"})

@@ -4,7 +4,7 @@ import asyncio
 from collections.abc import Callable
 from typing import Any
 
-from mjdrive.web import wire
+from mjdrive.page import wire
 from mjdrive.web.outbox import Outbox
 from mjdrive.web.roles import Standing
 

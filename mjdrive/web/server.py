@@ -14,8 +14,7 @@ from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from mjdrive.errors import RenderError
-from mjdrive.web import wire
+from mjdrive.page import built, wire
 from mjdrive.web.api import Api
 from mjdrive.web.browsing import Shelf
 from mjdrive.web.commands import CommandError, parse
@@ -24,9 +23,6 @@ from mjdrive.web.hub import Hub
 from mjdrive.web.outbox import Outbox
 from mjdrive.web.session import Session
 from mjdrive.web.simulator import Simulator
-
-PAGE = Path(__file__).parent / "static"
-"""The built page; `npm run build` makes it of the sources in page/."""
 
 MOST_PAGES = 8
 
@@ -38,7 +34,9 @@ NOT_UNDERSTOOD = 1003
 GOING_AWAY = 1001
 
 
-def make_app(session: Session, *, shelf: Shelf, access: Access, page: Path = PAGE) -> ASGIApp:
+def make_app(
+    session: Session, *, shelf: Shelf, access: Access, page: Path = built.FOLDER
+) -> ASGIApp:
     """Make the application; it drives while it runs.
 
     Args:
@@ -50,10 +48,7 @@ def make_app(session: Session, *, shelf: Shelf, access: Access, page: Path = PAG
     Raises:
         RenderError: If the page was never built.
     """
-    if not (page / "index.html").is_file():
-        raise RenderError(
-            f"There is no built page in '{page}'. Build it with Node: npm ci && npm run build in {page.parent / 'page'}."
-        )
+    built.require_built(page)
     hub = Hub()
     simulator = Simulator(session, hub)
 

@@ -8,12 +8,12 @@ import numpy as np
 from jaxtyping import Float
 
 from mjdrive.datatypes import Action, Infraction, Observation
+from mjdrive.page.scene import scene_message
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import library
 from mjdrive.web.choices import load_mind
 from mjdrive.web.policies import Mind
 from mjdrive.web.recording import Recording, keep, require_room
-from mjdrive.web.scene import scene_message
 
 MOST_ROWS = 36_000
 """Of a drive that are remembered for pages that come later [-]."""

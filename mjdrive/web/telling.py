@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Int8
 
 from mjdrive.datatypes import Action
-from mjdrive.web import wire
+from mjdrive.page import wire
 from mjdrive.web.policies import Density
 from mjdrive.web.session import Decision, Session
 

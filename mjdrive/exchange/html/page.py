@@ -1,33 +1,24 @@
-"""Episode -> one HTML file that plays it: map, bird's-eye view, speed, actions and infractions, without any network."""
+"""Episode -> one HTML file that plays it: the live page with the episode inside, which needs no server and no network."""
 
 import base64
 import html
-import json
-import zlib
 from collections.abc import Callable
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
-import jinja2
-import numpy as np
-
-from mjdrive.bev.layers import pack
-from mjdrive.config import BevConfig
-from mjdrive.datatypes import Episode, Town
-from mjdrive.evaluation.figure_style import SYMBOLS, title
+from mjdrive.datatypes import Episode
+from mjdrive.evaluation.figure_style import title
 from mjdrive.exchange.views import ViewMaker
 from mjdrive.files import write_atomically
+from mjdrive.page import built, wire
+from mjdrive.page.replaying import episode_message
+from mjdrive.page.scene import scene_message
 from mjdrive.recording.playback import car_of, town_of
-from mjdrive.town import signals
-from mjdrive.town.surface import edges
-from mjdrive.vehicle.parameters import VehicleParameters
+from mjdrive.simulation.simulation import Simulation
 
-HEIGHT_PX = 760
+HEIGHT_PX = 820
 """Of the frame in a notebook [px]."""
 
-_FORMAT = "mjdrive-page-1"
-_OUTLINE_STEP = 2.0  # between the points of a lane on the map [m]
 _COMPRESSION = 9
 
 
@@ -44,6 +35,7 @@ class EpisodePage:
 
     Raises:
         DataError: If town or car are not those of the episode.
+        RenderError: If the live page was never built, as in a checkout whose built page was deleted.
     """
 
     def __init__(
@@ -53,19 +45,8 @@ class EpisodePage:
         car: str | None = None,
         on_step: Callable[[int], None] = lambda done: None,
     ) -> None:
-        town, parameters = town_of(episode), car_of(episode, name=car).parameters
-        data = _data(episode, town, parameters, on_step)
-        here = resources.files(__package__)
-        style, script, page = (
-            (here / f"episode.{kind}").read_text(encoding="utf-8")
-            for kind in ("css", "js", "html.jinja")
-        )
-        # "<" must not end the element that holds the data.
-        packed = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
-        template = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
-        self.text = template.from_string(page).render(
-            title=title(episode), style=style, script=script, data=packed
-        )
+        built.require_built()
+        self.text = built.with_drive(_drive(episode, car, on_step))
 
     def save(self, path: Path) -> None:
         """Write the page; a file of that name is replaced."""
@@ -79,78 +60,25 @@ class EpisodePage:
         )
 
 
-def _data(
-    episode: Episode,
-    town: Town,
-    parameters: VehicleParameters,
-    on_step: Callable[[int], None],
-) -> dict[str, Any]:
-    """All that the script of the page reads, as JSON values."""
-    config, views = BevConfig(), ViewMaker(town)
-    packed = []
+def _drive(episode: Episode, car: str | None, on_step: Callable[[int], None]) -> dict[str, Any]:
+    """What the page reads: the messages that a server would send it, as text."""
+    town, driven = town_of(episode), car_of(episode, name=car)
+    views, seen = ViewMaker(town), []
     for step in range(len(episode.time)):
-        codes = pack(views.bev(episode, step)).tobytes()
-        packed.append(base64.b64encode(zlib.compress(codes, _COMPRESSION)).decode())
+        blobs = {"bev": views.bev(episode, step)}
+        seen.append(_text(wire.pack("view", {"step": step}, blobs, level=_COMPRESSION)))
         on_step(step + 1)
-    ahead = config.pixels_per_metre * config.origin_ahead_of_rear_axle
-    rear = config.size_px - config.ego_above_bottom_px + ahead
+    scene = scene_message(town, Simulation(town, car=driven).model)
+    name = title(episode)
     return {
-        "format": _FORMAT,
-        "time": _rounded(episode.time, 3),
-        "path": _rounded(episode.vehicle[:, :3], 3),
-        "speed": _rounded(episode.vehicle[:, 3], 3),
-        "actions": _rounded(episode.actions, 4),
-        "infractions": [_infraction(it) for it in episode.infractions],
-        "views": packed,
-        "view": {
-            "size": config.size_px,
-            "scale": config.pixels_per_metre,
-            "rear": rear,
-            "length": parameters.length,
-            "width": parameters.width,
-            "overhang": parameters.rear_overhang,
-        },
-        "town": {
-            "bounds": _rounded(town.bounds, 2),
-            "lanes": [_outline(*edges(lane)) for lane in town.lanes.values()],
-            "lights": _lights(episode, town),
-        },
+        "title": name,
+        "scene": _text(wire.deflated(scene, level=_COMPRESSION)),
+        "episode": _text(
+            wire.deflated(episode_message(episode, name, car=driven), level=_COMPRESSION)
+        ),
+        "views": seen,
     }
 
 
-def _infraction(it: Any) -> dict[str, Any]:
-    words, _, colour = SYMBOLS[it.kind]
-    return {
-        "time": round(it.time, 3),
-        "x": round(it.x, 3),
-        "y": round(it.y, 3),
-        "words": words,
-        "cause": it.cause,
-        "colour": colour,
-    }
-
-
-def _outline(left: np.ndarray, right: np.ndarray) -> list[Any]:
-    """Left edge forwards, right edge back, thinned out [m]."""
-    step = max(1, round(_OUTLINE_STEP / max(np.hypot(*np.diff(left[:2], axis=0)[0]), 0.1)))
-    sides = (np.concatenate([side[:-1:step], side[-1:]]) for side in (left, right[::-1]))
-    return _rounded(np.concatenate(list(sides)), 2)
-
-
-def _lights(episode: Episode, town: Town) -> list[dict[str, Any]]:
-    """Of each light its stop line, and what it shows from which step on."""
-    lights = []
-    for light in town.lights.values():
-        shown = [int(signals.at(light, float(now) + episode.light_phase)) for now in episode.time]
-        changes = [0, *(np.flatnonzero(np.diff(shown)) + 1).tolist()]
-        lights.append(
-            {
-                "line": _rounded(light.stop_line, 2),
-                "shows": [[step, shown[step]] for step in changes],
-            }
-        )
-    return lights
-
-
-def _rounded(values: np.ndarray, digits: int) -> list[Any]:
-    return np.round(values, digits).tolist()
+def _text(message: bytes) -> str:
+    return base64.b64encode(message).decode()

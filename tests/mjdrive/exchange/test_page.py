@@ -4,7 +4,6 @@ import base64
 import html
 import json
 import re
-import zlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,13 +11,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mjdrive.bev.layers import unpack
 from mjdrive.datatypes import Infraction
 from mjdrive.exchange.html.page import EpisodePage
 from mjdrive.exchange.sources import Recording
 from mjdrive.exchange.views import ViewMaker
+from mjdrive.page import built, wire
+from mjdrive.page.replaying import episode_message
+from mjdrive.page.scene import scene_message
 from mjdrive.recording.playback import town_of
-from mjdrive.town import signals
+from mjdrive.simulation.simulation import Simulation
 
 
 @pytest.fixture(scope="module")
@@ -28,12 +29,19 @@ def text(exported: Callable[[str], Path]) -> str:
 
 @pytest.fixture(scope="module")
 def data(text: str) -> dict[str, Any]:
-    (found,) = re.findall(r'<script type="application/json" id="episode">(.*?)</script>', text)
+    (found,) = re.findall(r'<script type="application/json" id="drive">(.*?)</script>', text)
     return json.loads(found)
 
 
-def test_the_page_asks_for_nothing_outside_itself(text: str) -> None:
-    assert not re.findall(r"""(?:src|href)\s*=|https?:|url\(|@import|\bimport\b|fetch\(""", text)
+def told(text: str) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    return wire.unpack(base64.b64decode(text))
+
+
+def test_it_is_the_live_page_and_asks_for_nothing_outside_itself(text: str) -> None:
+    for name in ("page.js", "page.css"):
+        assert (built.FOLDER / name).read_text() in text
+    document = text.replace((built.FOLDER / "page.js").read_text(), "")
+    assert not re.findall(r"""src\s*=|https?:|url\(|@import|href="(?!data:)""", document)
     assert "default-src 'none'" in text
 
 
@@ -44,35 +52,37 @@ def test_every_view_is_that_of_the_policy(
     views = ViewMaker(town_of(episode))
     assert len(data["views"]) == len(episode.time)
     for step in (0, 7, 14):
-        codes = zlib.decompress(base64.b64decode(data["views"][step]))
-        seen = unpack(np.frombuffer(codes, np.uint8).reshape(192, 192))
-        np.testing.assert_array_equal(seen, views.bev(episode, step))
+        _, blobs = told(data["views"][step])
+        np.testing.assert_array_equal(blobs["bev"], views.bev(episode, step))
 
 
-def test_path_speed_and_actions_are_those_of_the_drive(
+def test_the_drive_is_what_a_server_would_tell_of_it(
     data: dict[str, Any], recordings: list[Recording]
 ) -> None:
     episode = recordings[0].episode
-    np.testing.assert_allclose(data["path"], episode.vehicle[:, :3], atol=1e-3)
-    np.testing.assert_allclose(data["speed"], episode.vehicle[:, 3], atol=1e-3)
-    np.testing.assert_allclose(data["actions"], episode.actions, atol=1e-4)
+    head, blobs = told(data["episode"])
+    meant_head, meant = wire.unpack(episode_message(episode, data["title"]))
+    assert head == meant_head
+    assert blobs.keys() == meant.keys()
+    for name, array in meant.items():
+        np.testing.assert_array_equal(blobs[name], array)
 
 
-def test_lights_show_at_each_step_what_they_showed(
+def test_the_town_is_what_a_server_would_tell_of_it(
     data: dict[str, Any], recordings: list[Recording]
 ) -> None:
-    episode = recordings[0].episode
-    lights = town_of(episode).lights.values()
-    for drawn, light in zip(data["town"]["lights"], lights, strict=True):
-        for step, time in enumerate(episode.time.tolist()):
-            (*_, (_, shown)) = (it for it in drawn["shows"] if it[0] <= step)
-            assert shown == signals.at(light, time + episode.light_phase)
+    town = town_of(recordings[0].episode)
+    head, blobs = told(data["scene"])
+    meant_head, meant = wire.unpack(scene_message(town, Simulation(town).model))
+    assert head == meant_head
+    assert all(np.array_equal(blobs[name], array) for name, array in meant.items())
 
 
 def test_names_out_of_a_town_cannot_become_markup(
     data: dict[str, Any], text: str, breach: Infraction
 ) -> None:
-    assert data["infractions"][0]["cause"] == breach.cause
+    head, _ = told(data["episode"])
+    assert head["infractions"][0][-1] == breach.cause
     assert breach.cause not in text
     assert text.count("</script>") == 2
 

@@ -4,8 +4,8 @@ import json
 
 import pytest
 
+from mjdrive.page.wire import MOST_BYTES
 from mjdrive.web.commands import LEAST_SPEED, MOST_SPEED, CommandError, parse
-from mjdrive.web.wire import MOST_BYTES
 
 
 def test_a_known_command_is_read() -> None:

@@ -8,7 +8,7 @@ from collections.abc import Awaitable, Callable
 import numpy as np
 from anyio.from_thread import start_blocking_portal
 
-from mjdrive.web import wire
+from mjdrive.page import wire
 from mjdrive.web.hub import POSES_WHILE_HIDDEN, Hub
 from mjdrive.web.outbox import MOST_TEXTS, Outbox
 from mjdrive.web.roles import Standing

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from mjdrive.web.server import PAGE
+from mjdrive.page.built import FOLDER as PAGE
 
 PATIENCE = 120.0
 """For the server to start on a busy machine [s]."""
@@ -48,10 +48,10 @@ def fetched(address: str) -> bytes:
 
 def test_the_wheel_holds_the_page_as_it_was_built(installed: Path) -> None:
     built = {it.relative_to(PAGE): it.read_bytes() for it in PAGE.rglob("*") if it.is_file()}
-    there = installed / "mjdrive" / "web" / "static"
+    there = installed / "mjdrive" / "page" / "static"
     found = {it.relative_to(there): it.read_bytes() for it in there.rglob("*") if it.is_file()}
     assert found == built
-    assert not (installed / "mjdrive" / "web" / "page").exists()  # users need no Node
+    assert not (installed / "mjdrive" / "page" / "browser").exists()  # users need no Node
 
 
 def test_the_installed_wheel_is_what_runs(environment: dict[str, str], installed: Path) -> None:

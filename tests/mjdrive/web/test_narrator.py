@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mjdrive.web import wire
+from mjdrive.page import wire
 from mjdrive.web.policies import Density
 from mjdrive.web.session import LATEST_ROWS
 

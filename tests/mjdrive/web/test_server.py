@@ -13,8 +13,9 @@ from starlette.testclient import TestClient, WebSocketTestSession
 
 from mjdrive.datatypes import Action
 from mjdrive.episodes import store
+from mjdrive.page import wire
 from mjdrive.town import library
-from mjdrive.web import browsing, server, wire
+from mjdrive.web import browsing, server
 from mjdrive.web.browsing import Shelf
 from mjdrive.web.guard import LOOPBACK, Access
 from mjdrive.web.session import Choice, Session

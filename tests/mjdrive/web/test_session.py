@@ -9,12 +9,12 @@ import pytest
 from mjdrive.datatypes import Action
 from mjdrive.episodes import dataset
 from mjdrive.errors import DataError, UnknownNameError
+from mjdrive.page import wire
+from mjdrive.page.replaying import episode_message, view_at
 from mjdrive.town import signals
-from mjdrive.web import wire
 from mjdrive.web.choices import load_mind
 from mjdrive.web.policies import DEPTH, shade
 from mjdrive.web.recording import HUMAN, SOURCE
-from mjdrive.web.replaying import episode_message, view_at
 from mjdrive.web.session import Choice, Session
 from mjdrive.web.telling import panel_message, pose_message
 

@@ -10,7 +10,8 @@ import pytest
 from mjdrive.datatypes import Action
 from mjdrive.episodes import dataset, store
 from mjdrive.errors import DataError, PhysicsError, RouteError
-from mjdrive.web import recording, wire
+from mjdrive.page import wire
+from mjdrive.web import recording
 from mjdrive.web.recording import LEAST_STEPS
 from mjdrive.web.session import Session
 

@@ -20,7 +20,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from mjdrive.web import wire
+from mjdrive.page import wire
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mjdrive.bev.layers import Layer
 from mjdrive.config import BevConfig
 from mjdrive.datatypes import Episode, Infraction, InfractionKind
 from mjdrive.exchange import formats
@@ -22,17 +21,13 @@ pytestmark = pytest.mark.timeout(900)
 PATIENCE = 240.0
 """For the page to draw on a busy machine [s]."""
 
-IS_GROUND = """
-(side) => { // of every pixel that the policy saw, "1" where the page has the colour of what is no road
-  const canvas = document.getElementById("view"), scale = canvas.width / side, width = canvas.width;
-  const { data } = canvas.getContext("2d").getImageData(0, 0, width, canvas.height);
-  let found = "";
-  for (let row = 0; row < side; row++)
-    for (let column = 0; column < side; column++) {
-      const at = 4 * (Math.floor((row + 0.5) * scale) * width + Math.floor((column + 0.5) * scale));
-      found += data[at] === 0xf4 && data[at + 1] === 0xf5 && data[at + 2] === 0xf7 ? "1" : "0";
-    }
-  return found;
+GROUND = (22, 25, 30)
+"""Where the page shows no road, no line and no light."""
+
+VIEW = """
+() => {
+  const { data, width } = document.getElementById("bev").getContext("2d").getImageData(0, 0, 192, 192);
+  return width === 192 ? Array.from(data) : [];
 }
 """
 
@@ -49,6 +44,7 @@ class Shown:
         self.page.on("console", lambda it: it.type == "error" and self.problems.append(it.text))
         self.page.on("request", lambda it: self.asked_for.append(it.url))
         self.page.goto(file.as_uri())
+        self.until(lambda: bool(self.page.evaluate("'mjdrive' in window")), "the drive")
 
     def until(self, condition: Callable[[], bool], what: str) -> None:
         """Wait for something; the page's own policy forbids the browser's way to do so."""
@@ -61,10 +57,14 @@ class Shown:
     def clock(self) -> str:
         return str(self.page.inner_text("#clock"))
 
+    @property
+    def scrubber(self) -> Any:
+        return self.page.locator("#replay input[type=range]")
+
     def is_ground(self) -> np.ndarray:
-        """Where the view shows no road, shape (192, 192)."""
-        found = self.page.evaluate(IS_GROUND, 192)
-        return np.array(list(found)).reshape(192, 192) == "1"
+        """Where the view shows nothing, shape (192, 192)."""
+        pixels = np.array(self.page.evaluate(VIEW)).reshape(192, 192, 4)
+        return np.all(pixels[..., :3] == GROUND, axis=-1)
 
 
 @pytest.fixture(scope="module")
@@ -90,7 +90,7 @@ def file(episode: Episode, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def shown(browser: Any, file: Path) -> Iterator[Shown]:
-    context = browser.new_context(offline=True, viewport={"width": 1100, "height": 900})
+    context = browser.new_context(offline=True, viewport={"width": 1200, "height": 900})
     shown = Shown(context, file)
     yield shown
     context.close()
@@ -104,14 +104,13 @@ def test_what_the_policy_saw_is_drawn_at_whatever_step_it_is_scrubbed_to(
     views, config = ViewMaker(town_of(episode)), BevConfig()
     apart = np.ones((config.size_px, config.size_px), bool)  # from where the car is drawn
     rear = config.size_px - config.ego_above_bottom_px
-    apart[rear - 30 : rear + 10, config.size_px // 2 - 8 : config.size_px // 2 + 8] = False
+    apart[rear - 30 : rear + 16, config.size_px // 2 - 8 : config.size_px // 2 + 8] = False
     seen = []
     for step in (0, 14, 6):
-        shown.page.locator("#scrubber").fill(str(step))
-        assert shown.clock == f"{episode.time[step]:.1f} s"
-        assert f"speed {3.6 * episode.vehicle[step, 3]:.1f} km/h" in shown.page.inner_text("body")
-        bev = views.bev(episode, step)
-        meant = ~np.any(bev[[Layer.ROAD, Layer.LANE_LINES, Layer.LIGHTS_NOW]], axis=0)
+        shown.scrubber.fill(str(step))
+        shown.until(lambda step=step: shown.clock == f"{episode.time[step]:.1f} s", "the clock")
+        assert shown.page.inner_text("#kmh") == f"{abs(3.6 * episode.vehicle[step, 3]):.0f}"
+        meant = ~np.any(views.bev(episode, step), axis=0)
 
         def agrees(meant: np.ndarray = meant) -> bool:
             return np.array_equal(shown.is_ground()[apart], meant[apart])
@@ -121,24 +120,45 @@ def test_what_the_policy_saw_is_drawn_at_whatever_step_it_is_scrubbed_to(
     assert len(set(seen)) == 3
 
 
-def test_an_infraction_is_told_when_it_happens_and_leads_there(
-    shown: Shown, breach: Infraction
-) -> None:
-    assert shown.page.inner_text("#told") == ""
-    shown.page.locator("#scrubber").fill("7")
-    assert breach.cause in shown.page.inner_text("#told")
-    shown.page.locator("#scrubber").fill("0")
-    shown.page.click("#infractions button")
-    assert shown.clock == f"{breach.time:.1f} s"
-    assert shown.page.locator("#infractions b").count() == 0  # a name is no markup
+def test_the_town_is_shown_in_3d_with_the_car_where_it_was(shown: Shown, episode: Episode) -> None:
+    shown.until(lambda: shown.page.evaluate("mjdrive.live.view.rendered") > 0, "a picture")
+    assert shown.page.evaluate("mjdrive.live.view.calls") > 10
+    shown.scrubber.fill("9")
+    place = "mjdrive.live.view.town.bodies[0].position"
+    goal = episode.vehicle[9, :2]
+
+    def is_there() -> bool:
+        found = shown.page.evaluate(f"[{place}.x, {place}.y]")
+        return bool(np.linalg.norm(np.array(found) - goal) < 3.0)  # rear axle and body are apart
+
+    shown.until(is_there, "the car at step 9")
+
+
+def test_an_infraction_has_its_mark_and_leads_there(shown: Shown, breach: Infraction) -> None:
+    mark = shown.page.locator("#replay .marks button")
+    assert breach.cause in str(mark.get_attribute("title"))
+    mark.click()
+    shown.until(lambda: shown.clock == f"{breach.time:.1f} s", "the moment of the infraction")
+    assert shown.page.inner_text("#infractions").endswith("collision")
+    assert shown.page.locator("#infractions b").count() == 1  # a name is no markup
 
 
 def test_keys_step_and_it_plays_to_the_end(shown: Shown, episode: Episode) -> None:
-    shown.page.keyboard.press("ArrowRight")
-    shown.page.keyboard.press("ArrowRight")
-    shown.page.keyboard.press("ArrowLeft")
-    assert shown.clock == "0.1 s"
-    shown.page.keyboard.press(" ")
+    for key in ("ArrowRight", "ArrowRight", "ArrowLeft"):
+        shown.page.keyboard.press(key)
+    shown.until(lambda: shown.clock == "0.1 s", "the step")
+    shown.scrubber.focus()
+    shown.page.keyboard.press(" ")  # plays, whatever has the focus but buttons
     end = f"{episode.time[-1]:.1f} s"
     shown.until(lambda: shown.clock == end, "the end of the drive")
-    assert shown.page.get_attribute("#play", "aria-label") == "Play"
+    shown.until(lambda: shown.page.inner_text("#replay button").startswith("Play"), "its end")
+
+
+def test_nothing_that_needs_a_server_is_shown(shown: Shown) -> None:
+    for hidden in ("#tabs", "#controls", "#live-again", "#energy", "#slow"):
+        assert not shown.page.is_visible(hidden), hidden
+    for visible in ("#gl", "#bev", "#map", "#charts", "#replay"):
+        assert shown.page.is_visible(visible), visible
+    shown.page.keyboard.press("?")
+    assert "next camera" in shown.page.inner_text("#help")
+    assert "wheel" not in shown.page.inner_text("#help")

@@ -10,9 +10,9 @@ from typing import Any
 import pytest
 import uvicorn
 
+from mjdrive.page.scene import scene_message
 from mjdrive.web.browsing import Shelf
 from mjdrive.web.guard import Access
-from mjdrive.web.scene import scene_message
 from mjdrive.web.server import make_app
 from mjdrive.web.session import Choice, Session
 

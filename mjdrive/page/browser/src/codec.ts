@@ -1,4 +1,4 @@
-// Messages of the server; mjdrive/web/wire.py says what each holds.
+// Messages of the server; mjdrive/page/wire.py says what each holds.
 
 export const VERSION = 1;
 

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-import mjdrive.web
+from mjdrive.page import built
 
-WEB = Path(mjdrive.web.__file__).parent
-SOURCE, BUILT = WEB / "page", WEB / "static"
+BUILT = built.FOLDER
+SOURCE = BUILT.parent / "browser"
 NPM = shutil.which("npm")
 
 
@@ -31,7 +31,7 @@ def test_the_committed_page_is_a_fresh_build_of_its_source(tmp_path: Path) -> No
     committed = {it.name: it.read_bytes() for it in BUILT.iterdir()}
     assert fresh.keys() == committed.keys()
     different = [name for name in fresh if fresh[name] != committed[name]]
-    assert not different, "run `npm ci && npm run build` in mjdrive/web/page, and commit"
+    assert not different, "run `npm ci && npm run build` in mjdrive/page/browser, and commit"
 
 
 def test_every_locked_package_has_a_digest_and_no_address() -> None:

@@ -45,7 +45,7 @@ WORTH_DEFLATING = 1024
 """Smaller blobs go as they are [bytes]."""
 
 DEFLATE_LEVEL = 1
-"""The fastest: a view becomes a tenth already [-]."""
+"""Of what goes over a slow link: the fastest; a view becomes a tenth already [-]."""
 
 
 def pack(
@@ -53,7 +53,7 @@ def pack(
     head: Mapping[str, Any],
     blobs: Mapping[str, np.ndarray] | None = None,
     *,
-    is_deflated: bool = False,
+    level: int = 0,
 ) -> bytes:
     """Write a binary message.
 
@@ -61,7 +61,7 @@ def pack(
         kind: One of those above.
         head: JSON values.
         blobs: Arrays by name.
-        is_deflated: Whether large blobs are deflated.
+        level: How hard large blobs are deflated, 1 to 9; 0 leaves them as they are [-].
     """
     parts: list[bytes] = []
     places: dict[str, list[Any]] = {}
@@ -69,8 +69,8 @@ def pack(
     for name, array in (blobs or {}).items():
         content = np.ascontiguousarray(array).tobytes()
         places[name] = [array.dtype.name, list(array.shape), offset]
-        if is_deflated and len(content) > WORTH_DEFLATING:
-            content = zlib.compress(content, DEFLATE_LEVEL)
+        if level and len(content) > WORTH_DEFLATING:
+            content = zlib.compress(content, level)
             places[name].append(len(content))
         padding = -len(content) % ALIGNMENT
         parts += [content, b"\0" * padding]
@@ -102,10 +102,10 @@ def unpack(message: bytes) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
     return head, blobs
 
 
-def deflated(message: bytes) -> bytes:
-    """Write a binary message again for a slow link."""
+def deflated(message: bytes, *, level: int = DEFLATE_LEVEL) -> bytes:
+    """Write a binary message again, for a slow link or a file."""
     head, blobs = unpack(message)
-    return pack(head.pop("k"), head, blobs, is_deflated=True)
+    return pack(head.pop("k"), head, blobs, level=level)
 
 
 def text(kind: str, values: Mapping[str, Any]) -> str:

@@ -3,7 +3,7 @@ import { asked, remember } from "./address";
 import { BevPanel } from "./bev";
 import { CAMERAS, type CameraName } from "./cameras";
 import { ChartsPanel } from "./charts";
-import { fetchMessage, type Message } from "./codec";
+import type { Message } from "./codec";
 import { $, COLORS, make, say } from "./dom";
 import { showCounts } from "./infractions";
 import { LandscapePanel } from "./landscape";
@@ -11,6 +11,7 @@ import type { Infraction, State } from "./link";
 import { MapPanel } from "./map";
 import { markChosen, rove } from "./roving";
 import { endOf, rowsAfter } from "./rows";
+import type { Source } from "./source";
 import { View } from "./view";
 
 const DRAW_MS = 100;
@@ -33,7 +34,7 @@ export class Live {
   private drawnAt = 0;
   private shownInfractions = "";
 
-  constructor(send: (command: object) => void, seek: (time: number) => void) {
+  constructor(private readonly source: Source, send: (command: object) => void, seek: (time: number) => void) {
     this.landscape = new LandscapePanel((acceleration, steering) => { if (!this.isReplaying) send({ op: "force", acceleration, steering }); });
     this.map = new MapPanel(seek);
     this.view = this.openView();
@@ -43,7 +44,7 @@ export class Live {
 
   /** Load the scene that is driven, or that of a town that is only looked at. */
   async loadScene(town?: string): Promise<void> {
-    const scene = await fetchMessage(town ? `api/scene?town=${encodeURIComponent(town)}` : "api/scene");
+    const scene = await this.source.scene(town);
     this.town = scene.head.town;
     this.view?.setTown(scene);
     this.map.setTown(scene);

@@ -1,11 +1,12 @@
 // An episode on the live view's panels; the scrubber is this page's own, others go on watching what they watch.
 import { remember } from "./address";
-import { fetchMessage, type Message } from "./codec";
+import type { Message } from "./codec";
 import { $, make, options, say } from "./dom";
 import { described, look } from "./infractions";
 import type { Infraction } from "./link";
 import type { Live } from "./live";
 import { COLUMNS } from "./rows";
+import type { Source } from "./source";
 
 const STEP_MS = 100;
 const SPEEDS = [0.5, 1, 2, 4];
@@ -24,7 +25,7 @@ export class Replay {
   private readonly time = make("output", { className: "time", ariaLabel: "Time in the episode", ariaLive: "off" });
   private readonly marks = make("div", { className: "marks" });
 
-  constructor(private readonly live: Live, private readonly note: (line: string, isError: boolean) => void) {
+  constructor(private readonly source: Source, private readonly live: Live, private readonly note: (line: string, isError: boolean) => void) {
     $("live-again").onclick = () => this.close();
     this.play.onclick = () => this.toggle();
     this.bar.oninput = () => this.go(Number(this.bar.value));
@@ -37,7 +38,7 @@ export class Replay {
   /** Show an episode from its start, or from a time [s]. */
   async open(name: string, from?: number): Promise<void> {
     try {
-      const episode = await fetchMessage(`api/episode?name=${encodeURIComponent(name)}`);
+      const episode = await this.source.episode(name);
       if (episode.head.town !== this.live.town) await this.live.loadScene(episode.head.town);
       this.episode = episode;
     } catch (error) { remember({ episode: null, t: null }); return this.note((error as Error).message, true); }
@@ -137,7 +138,7 @@ export class Replay {
     this.isFetching = true;
     const wanted = this.step, { name } = this.episode.head;
     try {
-      const { blobs, shapes } = await fetchMessage(`api/episode/view?name=${encodeURIComponent(name)}&step=${wanted}`);
+      const { blobs, shapes } = await this.source.view(name, wanted);
       if (this.isOpen) { this.live.bev.show(blobs.bev, shapes.bev[1]); say($("bev-tick"), `step ${wanted}`); }
     } catch (error) { this.note((error as Error).message, true); } finally { this.isFetching = false; }
     if (this.isOpen && this.step !== wanted) void this.fetchView();

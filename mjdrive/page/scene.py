@@ -18,8 +18,8 @@ import numpy as np
 from jaxtyping import Float
 
 from mjdrive.datatypes import Signal, Town
+from mjdrive.page import wire
 from mjdrive.simulation.blocks import UNSEEN_GROUP
-from mjdrive.web import wire
 
 _SHAPES = {
     int(mujoco.mjtGeom.mjGEOM_BOX): "box",

@@ -45,7 +45,8 @@ export class Keys {
 
   private down(event: KeyboardEvent, shortcuts: Shortcuts): void {
     const target = event.target as HTMLElement, name = event.key === " " ? "Space" : event.key;
-    if (event.defaultPrevented || target.closest("input:not([type=checkbox]), select, textarea, dialog[open]") || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.defaultPrevented || target.closest("input:not([type=checkbox], [type=range]), select, textarea, dialog[open]") || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (target.matches("input[type=range]") && name.startsWith("Arrow")) return; // moves by itself
     const key = DRIVE[event.code];
     if (key) this.held.add(key); // also before the wheel has come: whoever asks for it presses the next key at once
     if (key && this.isDriving) {
@@ -54,7 +55,7 @@ export class Keys {
       return;
     }
     const shortcut = shortcuts[name.length === 1 ? name.toLowerCase() : name];
-    if (!shortcut || event.repeat || (target.closest("button, input") && ["Space", "Enter"].includes(name))) return;
+    if (!shortcut || event.repeat || (target.closest("button, input:not([type=range])") && ["Space", "Enter"].includes(name))) return;
     event.preventDefault();
     shortcut();
   }

@@ -14,6 +14,7 @@ export const askedAll = (name: Name): string[] | null => (FIRST.has(name) ? FIRS
 
 /** Write what is shown into the address. A token never stays there: people copy addresses, and the cookie has it. */
 export function remember(values: Partial<Record<Name, Value>>): void {
+  if (!location.protocol.startsWith("http")) return; // a file, or a frame without an address
   const query = new URLSearchParams(location.search);
   query.delete("token");
   for (const [name, value] of Object.entries(values)) {

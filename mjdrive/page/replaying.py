@@ -14,27 +14,27 @@ from jaxtyping import Float, UInt8
 
 from mjdrive.bev.projector import BevProjector
 from mjdrive.datatypes import Episode, Town
-from mjdrive.errors import DataError
-from mjdrive.recording.playback import town_of
+from mjdrive.page import wire
+from mjdrive.recording.playback import car_of, town_of
 from mjdrive.town import signals
-from mjdrive.vehicle import cars
 from mjdrive.vehicle.assembly import car_on_road
 from mjdrive.vehicle.car import Car
-from mjdrive.web import wire
+from mjdrive.vehicle.cars import CarModel
 
 TIMESTEP = 0.005
 """Of a model that only stands where it is told [s]."""
 
 
-def episode_message(episode: Episode, name: str) -> bytes:
+def episode_message(episode: Episode, name: str, *, car: CarModel | None = None) -> bytes:
     """Tell a whole drive.
 
     Args:
         episode: The drive.
         name: How the page calls it.
+        car: The car that drove; what the episode says if None.
 
     Raises:
-        DataError: If another car drove than one that comes with mjdrive, or the town has changed since.
+        DataError: If another car drove than one that comes with mjdrive and none is given, or car or town have changed since.
         UnknownNameError: If there is no such town.
     """
     lights = light_signals(episode, town_of(episode))
@@ -52,7 +52,11 @@ def episode_message(episode: Episode, name: str) -> bytes:
             for it in episode.infractions
         ],
     }
-    blobs = {"rows": rows.astype(np.float32), "poses": body_poses(episode), "lights": lights}
+    blobs = {
+        "rows": rows.astype(np.float32),
+        "poses": body_poses(episode, car or car_of(episode)),
+        "lights": lights,
+    }
     return wire.pack("episode", head, blobs)
 
 
@@ -63,19 +67,9 @@ def light_signals(episode: Episode, town: Town) -> UInt8[np.ndarray, "T L"]:
     return rows.reshape(len(episode.time), len(town.lights))
 
 
-def body_poses(episode: Episode) -> Float[np.ndarray, "T N 7"]:
-    """Where each body of the car was at each step: position [m] and quaternion, in single precision.
-
-    Raises:
-        DataError: If another car drove than one that comes with mjdrive.
-    """
-    name = episode.metadata.get("car", cars.DEFAULT)
-    if name not in cars.SHIPPED:
-        raise DataError(
-            f"The car '{name}' drove this episode; the page replays those that come with mjdrive: "
-            f"{', '.join(cars.SHIPPED)}."
-        )
-    model = car_on_road(timestep=TIMESTEP, car=cars.load(name).path).compile()
+def body_poses(episode: Episode, driven: CarModel) -> Float[np.ndarray, "T N 7"]:
+    """Where each body of the car was at each step: position [m] and quaternion, in single precision."""
+    model = car_on_road(timestep=TIMESTEP, car=driven.path).compile()
     data = mujoco.MjData(model)
     car = Car(model, data)
     poses = np.empty((len(episode.time), model.nbody - 1, 7), np.float32)

@@ -1,4 +1,4 @@
-import "./style.css";
+// The page of a server: what is driven now, episodes and runs.
 import { asked, remember } from "./address";
 import { Controls } from "./controls";
 import { $ } from "./dom";
@@ -7,19 +7,20 @@ import { toggleHelp } from "./help";
 import { Keys } from "./keys";
 import { Link, type State } from "./link";
 import { Live } from "./live";
+import { note } from "./notes";
 import { Replay } from "./replay";
 import { markChosen, rove } from "./roving";
 import { Runs } from "./runs";
+import { SERVER } from "./source";
 
 const TABS = ["live", "episodes", "runs"] as const;
 type Tab = (typeof TABS)[number];
-const NOTE_MS = 6000;
 const MOST_LOADS = 3; // of scenes in a row, where what is driven changes meanwhile
 
 const send = (command: object): void => link.send(command);
-const live = new Live(send, (time) => replay.seek(time));
+const live = new Live(SERVER, send, (time) => replay.seek(time));
 const controls = new Controls(send);
-const replay = new Replay(live, note);
+const replay = new Replay(SERVER, live, note);
 const episodes = new Episodes((name) => { controls.giveBack(); choose("live"); void replay.open(name); }, (line) => note(line, true));
 const runs = new Runs();
 const slow = $<HTMLInputElement>("slow");
@@ -50,7 +51,7 @@ const keys = new Keys({ hold: (command) => link.hold(command), giveBack: () => c
   Backspace: () => (replay.isOpen ? replay.stepBy(-Infinity) : controls.reset()), Escape: () => { if (replay.isOpen) replay.close(); },
   t: () => { if (!replay.isOpen) controls.wheel(); },
   Enter: () => { if (!replay.isOpen) controls.keep(); }, Delete: () => { if (!replay.isOpen) controls.drop(); },
-  c: () => live.nextCamera(), "?": toggleHelp, "1": () => choose("live"), "2": () => choose("episodes"), "3": () => choose("runs"),
+  c: () => live.nextCamera(), "?": () => toggleHelp(), "1": () => choose("live"), "2": () => choose("episodes"), "3": () => choose("runs"),
 });
 
 function showState(told: State): void {
@@ -73,15 +74,6 @@ const complain = (error: Error): void => note(error.message, true);
 function refresh(): void { controls.refresh().catch(complain); }
 
 function sayLink(): void { send({ op: "slow", on: slow.checked }); }
-
-function note(line: string, isError: boolean): void {
-  const box = $("note");
-  box.hidden = false;
-  box.classList.toggle("error", isError);
-  box.firstElementChild!.textContent = line;
-  clearTimeout(Number(box.dataset.timer));
-  if (!isError) box.dataset.timer = String(setTimeout(() => (box.hidden = true), NOTE_MS));
-}
 
 function choose(tab: Tab): void {
   for (const it of TABS) $(it).hidden = it !== tab;
@@ -117,8 +109,7 @@ for (const it of TABS) $(`tab-${it}`).onclick = () => choose(it);
 for (const it of ["town", "policy"]) $(it).onfocus = refresh;
 rove($("tabs"));
 markChosen($("tabs"), (it) => it.id === "tab-live");
-$("help-open").onclick = toggleHelp;
-$("note").querySelector("button")!.onclick = () => ($("note").hidden = true);
+$("help-open").onclick = () => toggleHelp();
 addEventListener("live-again", () => void showLive());
 await loadScene();
 const [tab, episode, time] = [TABS.find((it) => it === asked("tab")), asked("episode"), asked("t")];

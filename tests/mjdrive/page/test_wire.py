@@ -7,7 +7,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mjdrive.web import wire
+from mjdrive.page import wire
 
 
 @given(st.integers(0, 9), st.integers(0, 5), st.text(max_size=20))

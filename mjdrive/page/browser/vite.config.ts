@@ -8,8 +8,8 @@ export default {
     emptyOutDir: true,
     target: "es2022",
     chunkSizeWarningLimit: 900,
-    rollupOptions: {
-      output: { entryFileNames: "page.js", chunkFileNames: "[name].js", assetFileNames: "page[extname]" },
+    rolldownOptions: {
+      output: { codeSplitting: false, entryFileNames: "page.js", assetFileNames: "page[extname]" },
     },
   },
 };
