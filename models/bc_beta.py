@@ -1,6 +1,7 @@
 """Behavioural cloning with a Beta distribution over each action."""
 
 import math
+from functools import partial
 
 import torch
 from jaxtyping import Float, UInt8
@@ -20,6 +21,7 @@ from models.config import LearnerConfig
 from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_action, policy_head
 from models.interfaces import ACTION_SIZE, Batch, Chance, Learner, weighted_mean
 from models.samplers.commitment import Commitment
+from models.samplers.grid import draw_lasting
 from models.threads import one_thread
 
 
@@ -75,7 +77,10 @@ class BcBetaLearner(Learner):
         commitment: Commitment | None = None,
     ) -> Float[Tensor, "B 2"]:
         """Mode, mean or a sample of the distribution, as the settings say."""
-        del commitment
+        if self.config.beta.inference == "sample" and commitment is not None:
+            return draw_lasting(
+                partial(self.log_density, bev, state), commitment, device=generator.device
+            )
         with one_thread():
             distribution = self.distribution(bev, state)
         alpha, beta = distribution.concentration1, distribution.concentration0

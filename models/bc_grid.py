@@ -10,7 +10,7 @@ from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_act
 from models.interfaces import ACTION_BOUND, Batch, Chance, Learner, weighted_mean
 from models.samplers.commitment import Commitment
 from models.samplers.draws import draw_categorical
-from models.samplers.grid import action_grid
+from models.samplers.grid import action_grid, cell_areas, cell_widths
 from models.threads import one_thread
 
 
@@ -70,7 +70,7 @@ class BcGridLearner(Learner):
         with one_thread():
             log_probabilities = self.log_probabilities(bev, state)
         actions = action_grid(settings.points, device=log_probabilities.device)
-        log_areas = _cell_areas(settings.points, device=log_probabilities.device).log()
+        log_areas = cell_areas(settings.points, device=log_probabilities.device).log()
         log_densities = log_probabilities - log_areas
         if settings.choice == "argmax":
             return actions[log_densities.argmax(dim=1)]
@@ -93,7 +93,7 @@ class BcGridLearner(Learner):
         points = self.config.categorical.points
         with one_thread():
             log_probabilities = self.log_probabilities(bev, state)
-        areas = _cell_areas(points, device=log_probabilities.device)
+        areas = cell_areas(points, device=log_probabilities.device)
         nearest = nearest_points(actions, points=points)
         cells = (nearest[..., 0] * points + nearest[..., 1]).expand(len(bev), -1)  # (B, N)
         return (log_probabilities - areas.log()).gather(1, cells)
@@ -122,17 +122,4 @@ def smoothed_labels(
         return F.one_hot(nearest_points(actions, points=points), points).to(actions.dtype)
     axis = torch.linspace(-ACTION_BOUND, ACTION_BOUND, points, device=actions.device)
     exponents = -0.5 * ((axis - actions[..., None]) / smoothing).square()
-    return torch.softmax(exponents + _cell_widths(points, device=actions.device).log(), dim=-1)
-
-
-def _cell_widths(points: int, *, device: torch.device) -> Float[Tensor, " P"]:
-    """Width of the cell of each point; those at the ends reach inwards only [-]."""
-    widths = torch.full((points,), 2 * ACTION_BOUND / (points - 1), device=device)
-    widths[[0, -1]] /= 2
-    return widths
-
-
-def _cell_areas(points: int, *, device: torch.device) -> Float[Tensor, " N"]:
-    """Area of the cell of each point of the grid [-]."""
-    widths = _cell_widths(points, device=device)
-    return torch.outer(widths, widths).flatten()
+    return torch.softmax(exponents + cell_widths(points, device=actions.device).log(), dim=-1)

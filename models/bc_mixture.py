@@ -1,6 +1,7 @@
 """Behavioural cloning with a mixture of Beta distributions: explicit, with as many modes as components."""
 
 import math
+from functools import partial
 
 import torch
 from jaxtyping import Float, UInt8
@@ -21,6 +22,7 @@ from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_act
 from models.interfaces import ACTION_SIZE, Batch, Chance, Learner, weighted_mean
 from models.samplers.commitment import Commitment
 from models.samplers.draws import draw_categorical, pick
+from models.samplers.grid import draw_lasting
 from models.threads import one_thread
 
 # Sum of both concentrations of a component before training: a standard deviation of 0.4 in [-1, 1].
@@ -85,7 +87,10 @@ class BcMixtureLearner(Learner):
         commitment: Commitment | None = None,
     ) -> Float[Tensor, "B 2"]:
         """Mode, mean or a sample of the mixture, as the settings say."""
-        del commitment
+        if self.config.beta.inference == "sample" and commitment is not None:
+            return draw_lasting(
+                partial(self.log_density, bev, state), commitment, device=generator.device
+            )
         with one_thread():
             log_weights, components = self.mixture(bev, state)
         if self.config.beta.inference == "mode":

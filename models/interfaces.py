@@ -174,7 +174,7 @@ class Learner(nn.Module, ABC):
             state: Speed [m/s], previous acceleration [-] and previous steering [-].
             generator: Source of chance, on the device of the observations.
             commitment: What lasts from decision to decision, of as many drivers as there are observations; it goes on with each call.
-                None draws everything anew. Without effect on methods that do not sample from a grid.
+                None draws everything anew. Without effect on methods that do not sample from a density, and on searches and chains.
 
         Returns:
             Acceleration and steering in [-1, 1] [-].

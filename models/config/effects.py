@@ -9,8 +9,8 @@ _SHARED = ("method", "network.", "density.", "evenness.", "optimiser.")
 _ENERGY = ("negatives.", "sampler.", "commitment.")
 
 _OWN: Mapping[Method, tuple[str, ...]] = {
-    "bc-beta": ("beta.",),
-    "bc-mixture": ("beta.", "mixture."),
+    "bc-beta": ("beta.", "commitment."),
+    "bc-mixture": ("beta.", "mixture.", "commitment."),
     "bc-grid": ("categorical.", "commitment."),
     "ibc": _ENERGY,
     "da-ibc": _ENERGY,
@@ -30,6 +30,13 @@ def settings_of(method: Method) -> tuple[str, ...]:
 def is_idle(name: str, config: LearnerConfig) -> bool:
     """Whether a setting, by its dotted name, changes nothing of how a learner learns and acts."""
     others = tuple(f"sampler.{kind}." for kind in _SAMPLERS if kind != config.sampler.kind)
-    if config.method != "bc-grid" and config.sampler.kind != "grid":
+    if not _samples(config):
         others = (*others, "commitment.")
     return not name.startswith(settings_of(config.method)) or name.startswith(others)
+
+
+def _samples(config: LearnerConfig) -> bool:
+    """Whether actions are drawn from something whose quantiles can be kept to."""
+    if config.method in ("bc-beta", "bc-mixture"):
+        return config.beta.inference == "sample"
+    return config.method == "bc-grid" or config.sampler.kind == "grid"

@@ -3,8 +3,8 @@ import dataclasses
 import pytest
 import torch
 
-from models.bc_grid import _cell_areas, nearest_points, smoothed_labels
-from models.samplers.grid import action_grid
+from models.bc_grid import nearest_points, smoothed_labels
+from models.samplers.grid import action_grid, cell_areas
 
 POINTS = 9
 TABLE = torch.zeros(POINTS, POINTS)
@@ -53,7 +53,7 @@ def test_samples_have_the_shares_of_the_table_and_temperature_sharpens_them(
             (cells[:, 0] * POINTS + cells[:, 1]).float(), bins=POINTS**2, min=0, max=POINTS**2
         ).view(POINTS, POINTS) / len(actions)
     torch.testing.assert_close(shares[1.0], TABLE, rtol=0, atol=0.04)
-    areas = _cell_areas(POINTS, device=torch.device("cpu")).view(POINTS, POINTS)
+    areas = cell_areas(POINTS, device=torch.device("cpu")).view(POINTS, POINTS)
     sharp = (TABLE / areas) ** 5 * areas
     sharp /= sharp.sum()
     torch.testing.assert_close(shares[0.2], sharp, rtol=0, atol=0.08)

@@ -7,8 +7,9 @@ from torch import nn
 from torch.distributions import Beta
 
 from models.bc_mixture import BcMixtureLearner, mixture_log_prob, mixture_mode
-from models.config import LearnerConfig
+from models.config import CommitmentConfig, LearnerConfig
 from models.errors import SettingError
+from models.samplers.commitment import Commitment
 
 # Two ways at a junction: to the left with 0.65, to the right with 0.35; acceleration and steering in [0, 1].
 SHARES = torch.tensor([0.65, 0.35])
@@ -70,6 +71,30 @@ def test_samples_keep_both_sides_and_mode_and_mean_are_what_they_say(trained, fo
     log_weights, components = known_mixture()
     mode = 2 * mixture_mode(log_weights, components, 1e-3)[0] - 1
     torch.testing.assert_close(found["mode"][0], mode, rtol=0, atol=0.05)
+
+
+def test_lasting_chance_keeps_its_side_and_every_moment_its_distribution(
+    trained, fork, generator, monkeypatch
+):
+    sampling = dataclasses.replace(trained.config.beta, inference="sample")
+    monkeypatch.setattr(trained, "config", dataclasses.replace(trained.config, beta=sampling))
+    num_drivers = 400
+    config = CommitmentConfig(hold=10**9, release=1.0)
+    commitment = Commitment(config, num_drivers, generator=generator)
+    seen = fork.unseen(num_drivers)
+    first, second = (trained.act(*seen, generator=generator, commitment=commitment) for _ in "12")
+    torch.testing.assert_close(first[:, 1], second[:, 1], rtol=0, atol=0)
+    assert not torch.equal(first[:, 0], second[:, 0])
+    with torch.no_grad():
+        log_weights, components = trained.mixture(*fork.unseen(1))
+    for side, component in ((1, 0), (-1, 1)):
+        order = components.mean[0, :, 1].argsort(descending=True)
+        here = first[side * first[:, 1] > 0]
+        share = log_weights.exp()[0, order[component]]
+        assert len(here) / num_drivers == pytest.approx(float(share), abs=0.06)
+        mean, deviation = (it[0, order[component]] for it in (components.mean, components.stddev))
+        torch.testing.assert_close(here.mean(dim=0), 2 * mean - 1, rtol=0, atol=0.07)
+        torch.testing.assert_close(here.std(dim=0), 2 * deviation, rtol=0.2, atol=0)
 
 
 def test_the_mode_is_where_the_mixture_is_densest():

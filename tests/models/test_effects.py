@@ -2,7 +2,15 @@ import dataclasses
 
 import pytest
 
-from models.config import METHODS, LearnerConfig, Method, SamplerConfig, is_idle, settings_of
+from models.config import (
+    METHODS,
+    BetaConfig,
+    LearnerConfig,
+    Method,
+    SamplerConfig,
+    is_idle,
+    settings_of,
+)
 
 
 def setting_names(config: object, prefix: str = "") -> list[str]:
@@ -34,3 +42,10 @@ def test_settings_of_the_other_samplers_lie_idle(kind: str) -> None:
     used = [name for name in NAMES if name.startswith("sampler.") and not is_idle(name, config)]
     groups = {name.removeprefix("sampler.").partition(".")[0] for name in used}
     assert groups == {"kind", "undo", "precision", kind}
+
+
+@pytest.mark.parametrize("method", ["bc-beta", "bc-mixture"])
+@pytest.mark.parametrize("inference", ["mode", "mean", "sample"])
+def test_chance_can_only_last_where_there_is_chance(method: Method, inference: str) -> None:
+    config = LearnerConfig(method, beta=BetaConfig(inference=inference))  # type: ignore[arg-type]
+    assert is_idle("commitment.hold", config) == (inference != "sample")

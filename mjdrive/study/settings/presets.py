@@ -51,9 +51,18 @@ def _aside(name: str, variant: str, label: str, *acting: str) -> Arm:
 
 ARMS = (
     Arm("bc-beta-mode", "bc-beta", "BC-Beta, mode", ("beta.inference=mode",)),
-    Arm("bc-beta-sample", "bc-beta", "BC-Beta, sampled", ("beta.inference=sample",)),
+    Arm("bc-beta-sample", "bc-beta", "BC-Beta, sampled", ("beta.inference=sample", _ANEW)),
+    Arm(
+        "bc-beta-committed", "bc-beta", "BC-Beta, committed", ("beta.inference=sample", _COMMITTED)
+    ),
     _aside("bc-beta-mean", "bc-beta", "BC-Beta, mean", "beta.inference=mean"),
-    Arm("bc-mixture-sample", "bc-mixture", "BC mixture, sampled", ("beta.inference=sample",)),
+    Arm(
+        "bc-mixture-committed",
+        "bc-mixture",
+        "BC mixture, committed",
+        ("beta.inference=sample", _COMMITTED),
+    ),
+    Arm("bc-mixture-sample", "bc-mixture", "BC mixture, sampled", ("beta.inference=sample", _ANEW)),
     _aside("bc-mixture-mode", "bc-mixture", "BC mixture, mode", "beta.inference=mode"),
     Arm(
         "bc-grid-committed",

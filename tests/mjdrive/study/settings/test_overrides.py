@@ -87,6 +87,8 @@ def test_ways_to_act_that_are_aside_are_looked_at_with_one_agent() -> None:
         "bc-beta-mode-6",
         "bc-beta-sample-5",
         "bc-beta-sample-6",
+        "bc-beta-committed-5",
+        "bc-beta-committed-6",
         "bc-beta-mean-5",
     ]
 
