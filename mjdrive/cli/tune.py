@@ -111,6 +111,8 @@ def tune(
         next_command=f"mjdrive drive --town {check_name} --policy {expert} --gains {folder / GAINS}"
         + ("" if car_name == "default" else f" --car {car_name}"),
     )
+    if gains.doubt:
+        click.echo(gains.doubt, err=True)
 
 
 def _compared(evidence: "Evidence") -> dict[str, str]:

@@ -66,6 +66,21 @@ class Gains:
     versions: dict[str, str]
     format: str = FORMAT
 
+    @property
+    def doubt(self) -> str:
+        """Why they should not be used as they are: what the town that the search never saw says; empty if nothing."""
+        checked = self.checked_on
+        if checked is None:
+            return ""
+        before, after = checked.before, checked.after
+        if after.cost <= before.cost and after.mishaps <= before.mishaps:
+            return ""
+        return (
+            f"In {checked.town}, which the search never saw, the tuned settings drive worse than those before: cost {after.cost:.2f} "
+            f"instead of {before.cost:.2f}, mishaps {after.mishaps} instead of {before.mishaps}. They fit {self.tuned_on.town} alone; tune on a "
+            f"town with bends as tight as the tightest that will be driven, as with --town {checked.town} --check-town {self.tuned_on.town}."
+        )
+
 
 def load(path: Path, kind: type[Settings], car: CarModel) -> Settings:
     """Read tuned settings for an expert in a car.

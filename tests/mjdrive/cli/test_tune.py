@@ -44,6 +44,13 @@ def test_tuning_leaves_gains_trials_and_a_picture(workplace):
     assert names == {"gains.json", "trials.json", "tuning.png"}
 
 
+def test_what_another_town_says_against_the_settings_is_told(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(Gains, "doubt", "In town02 they drive worse.")
+    done = run("tune", "--town", "town02", "--check-town", "town02", "--trials", "2")
+    assert (done.exit_code, done.stderr.splitlines()[-1]) == (0, "In town02 they drive worse.")
+
+
 def test_tuning_is_never_overwritten(workplace):
     again = run("tune", "--town", "town02", "--trials", "2")
     assert (again.exit_code, "is there already" in again.stderr) == (2, True)
