@@ -176,6 +176,12 @@ class Bench:
 
 
 @pytest.fixture(scope="session")
+def no_webgl() -> str:
+    """A script for pages that shall find no WebGL."""
+    return NO_WEBGL
+
+
+@pytest.fixture(scope="session")
 def address(shelves: Path, environment: dict[str, str], example_package: Path) -> Iterator[str]:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))

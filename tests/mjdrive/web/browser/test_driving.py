@@ -69,7 +69,7 @@ def test_a_page_that_hangs_lets_go(bench: Any) -> None:
     bench.take_the_wheel()
     bench.page.keyboard.down("ArrowUp")
     bench.wait(lambda: bench.watcher.pose["action"][0] == 1.0, "full throttle")
-    bench.page.evaluate(f"() => {{ setTimeout(() => ({BLOCK})(8000)); }}")
+    bench.page.evaluate(f"() => {{ setTimeout(() => ({BLOCK})(6000)); }}")
     bench.wait(lambda: bench.watcher.pose["action"][0] == 0.0, "the pedal to come up")
     bench.page.keyboard.up("ArrowUp")
 
