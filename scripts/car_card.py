@@ -1,6 +1,6 @@
 """Write the tables of docs/car.md and docs/cars.md from what `mjdrive car test` and `mjdrive car compare` have measured.
 
-Before: `mjdrive car test --plot --out docs/car`, `mjdrive car test --car mkz --quick --out docs/car_mkz` and `mjdrive car
+Before: `mjdrive car test --plot --out docs/car`, `mjdrive car test --car mkz --out docs/car_mkz` and `mjdrive car
 compare --out docs/car_compared`.
 """
 

@@ -71,7 +71,7 @@ def test_card_of_the_mkz_has_the_numbers_of_its_file(row, field, pattern):
 
 
 def test_report_is_of_this_car_and_every_bar_holds():
-    command = "run: mjdrive car test --car mkz --quick --out docs/car_mkz"
+    command = "run: mjdrive car test --car mkz --out docs/car_mkz"
     assert REPORT["car_digest"] == cars.load("mkz").digest, command
     assert [bar["figure"] for bar in REPORT["bars"] if not bar["holds"]] == []
 
