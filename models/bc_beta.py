@@ -1,7 +1,6 @@
 """Behavioural cloning with a Beta distribution over each action."""
 
 import math
-from functools import partial
 
 import torch
 from jaxtyping import Float, UInt8
@@ -14,6 +13,8 @@ from models.beta_density import (
     beta_mode,
     draw_beta,
     draw_label_noise,
+    draw_lasting,
+    log_cell_masses,
     noisy_units,
     unit_from_action,
 )
@@ -21,7 +22,6 @@ from models.config import LearnerConfig
 from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_action, policy_head
 from models.interfaces import ACTION_SIZE, Batch, Chance, Learner, weighted_mean
 from models.samplers.commitment import Commitment
-from models.samplers.grid import draw_lasting
 from models.threads import one_thread
 
 
@@ -77,10 +77,6 @@ class BcBetaLearner(Learner):
         commitment: Commitment | None = None,
     ) -> Float[Tensor, "B 2"]:
         """Mode, mean or a sample of the distribution, as the settings say."""
-        if self.config.beta.inference == "sample" and commitment is not None:
-            return draw_lasting(
-                partial(self.log_density, bev, state), commitment, device=generator.device
-            )
         with one_thread():
             distribution = self.distribution(bev, state)
         alpha, beta = distribution.concentration1, distribution.concentration0
@@ -88,6 +84,9 @@ class BcBetaLearner(Learner):
             unit = beta_mode(alpha, beta)
         elif self.config.beta.inference == "mean":
             unit = distribution.mean
+        elif commitment is not None:
+            each = log_cell_masses(alpha, beta)  # (B, 2, P)
+            return draw_lasting(each[:, 0, :, None] + each[:, 1, None, :], commitment)
         else:
             unit = draw_beta(alpha, beta, generator=generator)
         return 2 * unit - 1

@@ -1,7 +1,6 @@
 """Behavioural cloning with a mixture of Beta distributions: explicit, with as many modes as components."""
 
 import math
-from functools import partial
 
 import torch
 from jaxtyping import Float, UInt8
@@ -14,6 +13,8 @@ from models.beta_density import (
     beta_mode,
     draw_beta,
     draw_label_noise,
+    draw_lasting,
+    log_cell_masses,
     noisy_units,
     unit_from_action,
 )
@@ -22,7 +23,6 @@ from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_act
 from models.interfaces import ACTION_SIZE, Batch, Chance, Learner, weighted_mean
 from models.samplers.commitment import Commitment
 from models.samplers.draws import draw_categorical, pick
-from models.samplers.grid import draw_lasting
 from models.threads import one_thread
 
 # Sum of both concentrations of a component before training: a standard deviation of 0.4 in [-1, 1].
@@ -87,16 +87,14 @@ class BcMixtureLearner(Learner):
         commitment: Commitment | None = None,
     ) -> Float[Tensor, "B 2"]:
         """Mode, mean or a sample of the mixture, as the settings say."""
-        if self.config.beta.inference == "sample" and commitment is not None:
-            return draw_lasting(
-                partial(self.log_density, bev, state), commitment, device=generator.device
-            )
         with one_thread():
             log_weights, components = self.mixture(bev, state)
         if self.config.beta.inference == "mode":
             unit = mixture_mode(log_weights, components, self.config.beta.label_clamp)
         elif self.config.beta.inference == "mean":
             unit = (log_weights.exp()[..., None] * components.mean).sum(dim=1)
+        elif commitment is not None:
+            return draw_lasting(mixture_log_masses(log_weights, components), commitment)
         else:
             drawn = draw_categorical(log_weights.exp(), 1, generator=generator)  # (B, 1)
             alpha, beta = (
@@ -137,6 +135,15 @@ def mixture_log_prob(
     alpha, beta = components.concentration1[:, None], components.concentration0[:, None]
     each = Beta(alpha, beta, validate_args=False).log_prob(unit[:, :, None])  # (B, N, K, 2)
     return torch.logsumexp(log_weights[:, None] + each.sum(dim=-1), dim=2)
+
+
+def mixture_log_masses(
+    log_weights: Float[Tensor, "B K"], components: Beta
+) -> Float[Tensor, "B P P"]:
+    """Log probability of the cells of a grid over the unit square, acceleration first [nats]."""
+    each = log_cell_masses(components.concentration1, components.concentration0)  # (B, K, 2, P)
+    acceleration = each[:, :, 0] + log_weights[..., None]
+    return torch.logsumexp(acceleration[..., None] + each[:, :, 1, None, :], dim=1)
 
 
 def mixture_mode(

@@ -1,12 +1,24 @@
-"""The Beta density over actions: where it is highest, and how to draw from it with a generator."""
+"""The Beta density over actions: where it is highest, what cells hold of it, and how to draw from it with a generator."""
+
+import math
 
 import torch
 from jaxtyping import Float
 from torch import Tensor
 from torch.distributions import Beta
+from torch.nn import functional as F  # noqa: N812
+
+from models.samplers.commitment import Commitment
+from models.samplers.grid import action_grid
 
 # Softplus underflows to zero, where the Beta density does not exist.
 SMALLEST_CONCENTRATION = 1e-6
+
+POINTS = 129
+"""Along each axis of the grid that stands for a density where chance lasts: a third of the label noise of the standard preset apart [-]."""
+
+PARTS = 4
+"""Of half a cell, in which its mass is integrated [-]."""
 
 
 def unit_from_action(
@@ -86,3 +98,48 @@ def noisy_units(
     """Labels with their noise, rescaled to the open unit interval [-]."""
     disturbed = actions if noise is None else actions + noise
     return unit_from_action(disturbed, label_clamp=label_clamp)
+
+
+def log_cell_masses(
+    alpha: Float[Tensor, "*B"], beta: Float[Tensor, "*B"], *, points: int = POINTS
+) -> Float[Tensor, "*B P"]:
+    """Log probability of the cell of each of some even points of [0, 1], which reaches halfway to its neighbours.
+
+    Args:
+        alpha: First concentration [-].
+        beta: Second concentration [-].
+        points: Including both ends, whose cells reach inwards only [-].
+
+    Returns:
+        Masses [nats], to about 1 % of each that matters and together 1; a density without a bound at an end is integrated there in closed form.
+    """
+    num = 2 * PARTS * (points - 1)
+    width = 1.0 / num
+    middles = (torch.arange(num, device=alpha.device) + 0.5) * width
+    density = Beta(alpha[..., None], beta[..., None], validate_args=False)
+    parts = density.log_prob(middles) + math.log(width)  # (*B, num)
+    norm = torch.lgamma(alpha) + torch.lgamma(beta) - torch.lgamma(alpha + beta)
+    for end, near, far in ((0, alpha, beta), (-1, beta, alpha)):
+        # The integral of u^(near - 1) over the part, times what else hangs on u, which hardly changes there.
+        parts[..., end] = (
+            near * math.log(width) - near.log() - norm + (far - 1) * math.log1p(-width / 2)
+        )
+    padded = F.pad(parts, (PARTS, PARTS), value=-torch.inf)
+    masses = torch.logsumexp(padded.unflatten(-1, (points, 2 * PARTS)), dim=-1)
+    return F.log_softmax(masses, dim=-1)
+
+
+def draw_lasting(
+    log_masses: Float[Tensor, "B P P"], commitment: Commitment
+) -> Float[Tensor, "B 2"]:
+    """Draw cells with what lasts from decision to decision.
+
+    Args:
+        log_masses: Of the cells of even points, acceleration first [nats].
+        commitment: What lasts.
+
+    Returns:
+        Actions in [-1, 1], the points of the cells [-].
+    """
+    actions = action_grid(log_masses.shape[-1], device=log_masses.device)
+    return actions[commitment.draw(log_masses.flatten(1)).squeeze(1)]

@@ -39,4 +39,6 @@ def _samples(config: LearnerConfig) -> bool:
     """Whether actions are drawn from something whose quantiles can be kept to."""
     if config.method in ("bc-beta", "bc-mixture"):
         return config.beta.inference == "sample"
-    return config.method == "bc-grid" or config.sampler.kind == "grid"
+    if config.method == "bc-grid":
+        return config.categorical.choice == "sample"
+    return config.sampler.kind == "grid" and config.sampler.grid.choice == "sample"

@@ -11,9 +11,6 @@ from models.samplers.commitment import Commitment
 from models.samplers.dfo import EnergyFunction
 from models.samplers.draws import draw_categorical
 
-FINE_POINTS = 129
-"""Of the grid that stands for a density in closed form: a quarter of the noise that labels of the standard preset carry apart [-]."""
-
 
 def action_grid(points: int, *, device: torch.device | None = None) -> Float[Tensor, "N 2"]:
     """Every pair of `points` evenly spaced accelerations and steerings in [-1, 1], acceleration outermost.
@@ -61,29 +58,6 @@ def choose(
     else:
         drawn = commitment.draw(log_weights)
     return actions[drawn.squeeze(1)]
-
-
-def draw_lasting(
-    log_density: Callable[[Tensor], Tensor],
-    commitment: Commitment,
-    *,
-    device: torch.device,
-    points: int = FINE_POINTS,
-) -> Float[Tensor, "B 2"]:
-    """Draw from a density that is told in closed form, with what lasts from decision to decision.
-
-    Args:
-        log_density: Log of the density (B, N) of actions (1, N, 2) [nats].
-        commitment: What lasts.
-        device: Where the density is told.
-        points: Along each axis of the grid that stands for it.
-
-    Returns:
-        Points of the grid [-].
-    """
-    actions = action_grid(points, device=device)
-    log_weights = log_density(actions[None]) + cell_areas(points, device=device).log()
-    return actions[commitment.draw(log_weights).squeeze(1)]
 
 
 def cell_widths(points: int, *, device: torch.device) -> Float[Tensor, " P"]:

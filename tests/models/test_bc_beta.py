@@ -7,7 +7,9 @@ from torch import nn
 from torch.distributions import Beta
 
 from models.bc_beta import BcBetaLearner
+from models.config import CommitmentConfig
 from models.interfaces import Batch
+from models.samplers.commitment import Commitment
 
 
 class Constant(nn.Module):
@@ -129,3 +131,22 @@ def test_the_log_density_integrates_to_one_and_is_that_of_the_loss(constant_lear
     # The loss speaks of actions rescaled to [0, 1], whose density is four times as high.
     expected = -loss_of(learner, batch, generator) - math.log(4)
     torch.testing.assert_close(own.mean(), expected)
+
+
+def test_lasting_chance_keeps_steering_and_every_moment_its_distribution(
+    constant_learner, generator
+):
+    learner = constant_learner(inference="sample", beta_offset=0)
+    num_drivers = 2000
+    seen = looks_alike(torch.zeros(num_drivers, 2))
+    config = CommitmentConfig(hold=10**9, release=1.0)
+    commitment = Commitment(config, num_drivers, generator=generator)
+    first, second = (
+        learner.act(seen.bev, seen.state, generator=generator, commitment=commitment)
+        for _ in range(2)
+    )
+    torch.testing.assert_close(first[:, 1], second[:, 1], rtol=0, atol=2 / 128)  # a cell
+    assert not torch.equal(first[:, 0], second[:, 0])
+    known = learner.distribution(seen.bev[:1], seen.state[:1])
+    torch.testing.assert_close(first.mean(dim=0), 2 * known.mean[0] - 1, rtol=0, atol=0.04)
+    torch.testing.assert_close(first.std(dim=0), 2 * known.stddev[0], rtol=0.05, atol=0)

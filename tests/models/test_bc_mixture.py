@@ -82,8 +82,10 @@ def test_lasting_chance_keeps_its_side_and_every_moment_its_distribution(
     config = CommitmentConfig(hold=10**9, release=1.0)
     commitment = Commitment(config, num_drivers, generator=generator)
     seen = fork.unseen(num_drivers)
-    first, second = (trained.act(*seen, generator=generator, commitment=commitment) for _ in "12")
-    torch.testing.assert_close(first[:, 1], second[:, 1], rtol=0, atol=0)
+    first, second = (
+        trained.act(*seen, generator=generator, commitment=commitment) for _ in range(2)
+    )
+    torch.testing.assert_close(first[:, 1], second[:, 1], rtol=0, atol=2 / 128)  # a cell
     assert not torch.equal(first[:, 0], second[:, 0])
     with torch.no_grad():
         log_weights, components = trained.mixture(*fork.unseen(1))

@@ -1,8 +1,10 @@
+import math
+
 import pytest
 import torch
 from torch.distributions import Beta
 
-from models.beta_density import beta_mode, draw_beta, unit_from_action
+from models.beta_density import POINTS, beta_mode, draw_beta, log_cell_masses, unit_from_action
 
 
 def test_the_mode_is_where_the_density_is_highest():
@@ -40,3 +42,24 @@ def test_draws_leave_the_random_numbers_of_others_alone(generator):
     before = torch.random.get_rng_state()
     draw_beta(torch.ones(1, 2), torch.ones(1, 2), generator=generator)
     assert torch.equal(torch.random.get_rng_state(), before)
+
+
+@pytest.mark.parametrize(
+    ("alpha", "beta", "cumulative"),
+    [
+        (1.0, 300.0, lambda x: 1 - (1 - x) ** 300),
+        (300.0, 1.0, lambda x: x**300),
+        (0.1, 1.0, lambda x: x**0.1),
+        (1.0, 0.1, lambda x: 1 - (1 - x) ** 0.1),
+        (0.5, 0.5, lambda x: 2 / math.pi * x.sqrt().asin()),
+        (2.0, 3.0, lambda x: 6 * x**2 - 8 * x**3 + 3 * x**4),
+        (2.0, 100.0, lambda x: 1 - (1 - x) ** 101 - 101 * x * (1 - x) ** 100),
+    ],
+)
+def test_cells_hold_what_lies_in_them_also_where_the_density_has_no_bound(alpha, beta, cumulative):
+    found = log_cell_masses(torch.tensor(alpha), torch.tensor(beta)).exp().double()
+    half = 0.5 / (POINTS - 1)
+    middles = torch.linspace(0, 1, POINTS, dtype=torch.float64)
+    high, low = (middles + half).clamp(max=1), (middles - half).clamp(min=0)
+    torch.testing.assert_close(found, cumulative(high) - cumulative(low), rtol=0.01, atol=2e-5)
+    assert float(found.sum()) == pytest.approx(1, abs=1e-5)

@@ -5,6 +5,8 @@ import pytest
 from models.config import (
     METHODS,
     BetaConfig,
+    CategoricalConfig,
+    GridConfig,
     LearnerConfig,
     Method,
     SamplerConfig,
@@ -44,8 +46,27 @@ def test_settings_of_the_other_samplers_lie_idle(kind: str) -> None:
     assert groups == {"kind", "undo", "precision", kind}
 
 
-@pytest.mark.parametrize("method", ["bc-beta", "bc-mixture"])
-@pytest.mark.parametrize("inference", ["mode", "mean", "sample"])
-def test_chance_can_only_last_where_there_is_chance(method: Method, inference: str) -> None:
-    config = LearnerConfig(method, beta=BetaConfig(inference=inference))  # type: ignore[arg-type]
-    assert is_idle("commitment.hold", config) == (inference != "sample")
+CERTAIN = [
+    *(LearnerConfig(it, beta=BetaConfig(inference="mode")) for it in ("bc-beta", "bc-mixture")),
+    LearnerConfig("bc-beta", beta=BetaConfig(inference="mean")),
+    LearnerConfig("bc-grid", categorical=CategoricalConfig(choice="argmax")),
+    LearnerConfig("da-ibc", sampler=SamplerConfig(kind="grid", grid=GridConfig(choice="argmin"))),
+    LearnerConfig("da-ibc", sampler=SamplerConfig(kind="dfo")),
+    LearnerConfig("flow"),
+]
+
+SAMPLED = [
+    *(LearnerConfig(it, beta=BetaConfig(inference="sample")) for it in ("bc-beta", "bc-mixture")),
+    LearnerConfig("bc-grid", categorical=CategoricalConfig(choice="sample")),
+    LearnerConfig("ibc", sampler=SamplerConfig(kind="grid", grid=GridConfig(choice="sample"))),
+]
+
+
+@pytest.mark.parametrize("config", CERTAIN)
+def test_chance_cannot_last_where_nothing_is_drawn_from_a_density(config: LearnerConfig) -> None:
+    assert is_idle("commitment.hold", config)
+
+
+@pytest.mark.parametrize("config", SAMPLED)
+def test_chance_can_last_where_actions_are_drawn_from_one(config: LearnerConfig) -> None:
+    assert not is_idle("commitment.hold", config)

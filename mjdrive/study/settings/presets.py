@@ -91,7 +91,7 @@ ARMS = (
 
 _PAPER_ARMS = (
     Arm("bc-beta-mode", "bc-beta", "BC-Beta, mode", ("beta.inference=mode",)),
-    Arm("bc-beta-sample", "bc-beta", "BC-Beta, sampled", ("beta.inference=sample",)),
+    Arm("bc-beta-sample", "bc-beta", "BC-Beta, sampled", ("beta.inference=sample", _ANEW)),
     Arm("da-ibc-dfo", "da-ibc", "DA-IBC, the paper's DFO", _PAPERS_DFO),
     Arm(
         "da-ibc-dfo-argmin",

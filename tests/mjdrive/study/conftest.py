@@ -25,7 +25,12 @@ def tiny() -> StudyConfig:
             Variant("da-ibc", "da-ibc", preset="quick", assignments=SMALL),
         ),
         arms=(
-            Arm("bc-beta-sample", "bc-beta", "BC-Beta, sampled", ("beta.inference=sample",)),
+            Arm(
+                "bc-beta-sample",
+                "bc-beta",
+                "BC-Beta, sampled",
+                ("beta.inference=sample", "commitment.hold=0"),
+            ),
             Arm("da-ibc-sample", "da-ibc", "DA-IBC, sampled"),
             Arm("da-ibc-argmin", "da-ibc", "DA-IBC, lowest", ("sampler.grid.choice=argmin",)),
         ),
