@@ -31,8 +31,13 @@ READERS = {
     metavar="PATH",
     help="A new folder; for html, mcap and rerun of one drive also a file. [default: exports/<name>-<format>]",
 )
+@click.option(
+    "--car",
+    metavar="NAME|FILE.xml",
+    help="Car that was driven, if it is one of your own. [default: what each episode says]",
+)
 @click.option("--overwrite", is_flag=True, help="Replace an export that is there.")
-def export(*, source: Path, name: str, out: Path | None, overwrite: bool) -> None:
+def export(*, source: Path, name: str, out: Path | None, car: str | None, overwrite: bool) -> None:
     """Write an episode, a drive, or a folder of them in another project's format.
 
     What the policy saw is drawn again, so town and car must be those that were driven. docs/recordings.md says what each
@@ -45,7 +50,7 @@ def export(*, source: Path, name: str, out: Path | None, overwrite: bool) -> Non
     files = sources.find(source)
     out = out or EXPORTS / f"{source.resolve().stem}-{name}"
     formats.require_writable(len(files), to, out, overwrite=overwrite)
-    recordings = sources.read(source)
+    recordings = sources.read(source, car=car)
     steps = sum(len(it.episode.time) for it in recordings)
     with progress_bars() as bars:
         task = bars.add_task(f"{len(recordings)} to {name}", total=steps)

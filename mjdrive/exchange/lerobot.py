@@ -49,9 +49,7 @@ def write(recordings: Sequence[Recording], folder: Path, *, on_step: Callable[[i
         before = sum(part.steps for part in parts)
         table = _columns(it.episode, index, before, tasks.index(_task(it.episode)))
         _write_table(table, folder / _place("data", index, "parquet"))
-        moments = _write_video(
-            it.episode, folder / _place(f"videos/{BEV}", index, "mp4"), before, on_step
-        )
+        moments = _write_video(it, folder / _place(f"videos/{BEV}", index, "mp4"), before, on_step)
         parts.append(Part(len(it.episode.time), _task(it.episode), moments))
         columns.append(table)
     _write_table(
@@ -100,10 +98,11 @@ def _columns(episode: Episode, index: int, before: int, task: int) -> Table:
 
 
 def _write_video(
-    episode: Episode, path: Path, before: int, on_step: Callable[[int], None]
+    recording: Recording, path: Path, before: int, on_step: Callable[[int], None]
 ) -> np.ndarray:
     """Write what was seen; returns the moments of its colours."""
-    views, parameters = ViewMaker(town_of(episode)), car_of(episode).parameters
+    episode = recording.episode
+    views, parameters = ViewMaker(town_of(episode)), car_of(episode, name=recording.car).parameters
     moments = np.array([[np.inf] * 3, [-np.inf] * 3, [0.0] * 3, [0.0] * 3])
 
     def frames() -> Iterator[UInt8[np.ndarray, "H W 3"]]:

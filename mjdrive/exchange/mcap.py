@@ -17,7 +17,6 @@ from typing import Any
 
 from mcap.writer import Writer
 
-from mjdrive.datatypes import Episode
 from mjdrive.evaluation.figure_style import SYMBOLS
 from mjdrive.exchange import foxglove
 from mjdrive.exchange.sources import Recording
@@ -56,7 +55,6 @@ def write(recording: Recording, path: Path, *, on_step: Callable[[int], None]) -
     Raises:
         DataError: If town or car are not those of the episode.
     """
-    episode = recording.episode
     with path.open("wb") as file:
         writer = Writer(file)
         writer.start(profile="", library="mjdrive")
@@ -64,7 +62,7 @@ def write(recording: Recording, path: Path, *, on_step: Callable[[int], None]) -
             topic: writer.register_channel(topic, "json", _register(writer, kind))
             for topic, kind in TOPICS.items()
         }
-        for topic, time, content in _messages(episode, on_step):
+        for topic, time, content in _messages(recording, on_step):
             now = round(time * 1e9)
             writer.add_message(channels[topic], now, json.dumps(content).encode(), now)
         writer.add_metadata("episode", _about(recording))
@@ -78,9 +76,10 @@ def _register(writer: Writer, kind: str) -> int:
     return writer.register_schema(kind, "jsonschema", json.dumps(schema).encode())
 
 
-def _messages(episode: Episode, on_step: Callable[[int], None]) -> Iterator[Message]:
+def _messages(recording: Recording, on_step: Callable[[int], None]) -> Iterator[Message]:
     """All that is told, in the order of time."""
-    town, parameters = town_of(episode), car_of(episode).parameters
+    episode = recording.episode
+    town, parameters = town_of(episode), car_of(episode, name=recording.car).parameters
     views, start = ViewMaker(town), float(episode.time[0])
     paths = [edge for lane in town.lanes.values() for edge in edges(lane)]
     yield "/town", start, foxglove.lines(start, town.name, paths)

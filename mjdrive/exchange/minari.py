@@ -61,7 +61,7 @@ def write(recordings: Sequence[Recording], folder: Path, *, on_step: Callable[[i
     short = [it.name for it in recordings if len(it.episode.time) < 2]
     if short:
         raise DataError(f"The drive '{short[0]}' has one step; Minari wants at least two.")
-    towns = [(town_of(it.episode), car_of(it.episode).parameters) for it in recordings]
+    towns = [(town_of(it.episode), car_of(it.episode, name=it.car).parameters) for it in recordings]
     views, done = ViewMaker(towns[0][0]), 0
     with h5py.File(folder / MAIN, "w", track_order=True) as file:
         for index, (it, (town, parameters)) in enumerate(zip(recordings, towns, strict=True)):

@@ -38,7 +38,7 @@ def write(recording: Recording, path: Path, *, on_step: Callable[[int], None]) -
         DataError: If town or car are not those of the episode.
     """
     episode = recording.episode
-    town, parameters = town_of(episode), car_of(episode).parameters
+    town, parameters = town_of(episode), car_of(episode, name=recording.car).parameters
     stream = rr.RecordingStream("mjdrive", recording_id=recording.name)
     stream.save(path)
     stream.send_recording_name(f"{recording.name}: {episode.policy} in {episode.town}")

@@ -18,10 +18,12 @@ class Recording(NamedTuple):
     Attributes:
         name: Unique among those of an export; fit for a file.
         episode: The drive.
+        car: Name or MJCF file of the car; what the episode says if None.
     """
 
     name: str
     episode: Episode
+    car: str | None = None
 
 
 def find(source: Path) -> tuple[Path, ...]:
@@ -54,16 +56,17 @@ def find(source: Path) -> tuple[Path, ...]:
     return tuple(found)
 
 
-def read(source: Path) -> list[Recording]:
+def read(source: Path, *, car: str | None = None) -> list[Recording]:
     """Read all episodes that somebody means.
 
     Args:
         source: As in `find`.
+        car: Name or MJCF file of the car of all of them; what each episode says if None.
 
     Raises:
         DataError: If there is none, or a file is damaged.
     """
-    return [Recording(_name(path), store.read(path)) for path in find(source)]
+    return [Recording(_name(path), store.read(path), car) for path in find(source)]
 
 
 def _name(path: Path) -> str:

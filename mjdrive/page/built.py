@@ -14,9 +14,7 @@ SCRIPT = '<script type="module" crossorigin src="./page.js"></script>'
 STYLE = '<link rel="stylesheet" crossorigin href="./page.css">'
 """How the document asks for the rest of the page."""
 
-POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:"
-)
+POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'"
 """What a page in a file may load: nothing that is not in it."""
 
 

@@ -14,9 +14,11 @@ from jaxtyping import Float, UInt8
 
 from mjdrive.bev.projector import BevProjector
 from mjdrive.datatypes import Episode, Town
+from mjdrive.errors import DataError
 from mjdrive.page import wire
-from mjdrive.recording.playback import car_of, town_of
+from mjdrive.recording.playback import CAR, car_of, town_of
 from mjdrive.town import signals
+from mjdrive.vehicle import cars
 from mjdrive.vehicle.assembly import car_on_road
 from mjdrive.vehicle.car import Car
 from mjdrive.vehicle.cars import CarModel
@@ -37,6 +39,11 @@ def episode_message(episode: Episode, name: str, *, car: CarModel | None = None)
         DataError: If another car drove than one that comes with mjdrive and none is given, or car or town have changed since.
         UnknownNameError: If there is no such town.
     """
+    if car is None and episode.metadata.get(CAR, cars.DEFAULT) not in cars.SHIPPED:
+        raise DataError(
+            f"The car '{episode.metadata[CAR]}' drove this episode; the page replays those that come with mjdrive: "
+            f"{', '.join(cars.SHIPPED)}. `mjdrive export --to html --car FILE.xml` shows it in a page of its own."
+        )
     lights = light_signals(episode, town_of(episode))
     rows = np.column_stack(
         [episode.time, episode.vehicle[:, :2], episode.vehicle[:, 3], episode.actions]

@@ -7,6 +7,7 @@ town of a thousand geoms takes some forty draw calls. Lamps come apart: their co
                texture, triangles one by one with uv_<n> (3 F, 2)
     instances  blobs box, cylinder, sphere of (N, 13): position [m], quaternion, half extents [m], red, green, blue
     parts      in the head: what moves: body, shape, position, quaternion, size, color
+    footprint  in the head, of the car in the view: width, and how far nose and tail are above the lower edge [px]
     lamps      blob (3 L, 4): position and radius [m]; green, yellow and red of each light in turn, radius 0 if unseen
     lanes      blobs lane_points (P, 2) [m], lane_ends (K,) and lane_widths (K,) [m]; light_places (L, 2) [m]
 """
@@ -17,9 +18,11 @@ import mujoco
 import numpy as np
 from jaxtyping import Float
 
+from mjdrive.config import BevConfig
 from mjdrive.datatypes import Signal, Town
 from mjdrive.page import wire
 from mjdrive.simulation.blocks import UNSEEN_GROUP
+from mjdrive.vehicle.parameters import VehicleParameters
 
 _SHAPES = {
     int(mujoco.mjtGeom.mjGEOM_BOX): "box",
@@ -54,6 +57,7 @@ def scene_message(town: Town, model: mujoco.MjModel) -> bytes:
     head = {
         "town": town.name,
         "bounds": town.bounds.round(2).tolist(),
+        "footprint": _footprint(VehicleParameters.of(model)),
         "bodies": model.nbody - 1,
         "materials": [_color(model.mat_rgba[it]) for it in range(model.nmat)],
         "textures": textures,
@@ -146,6 +150,15 @@ def _rgba(model: mujoco.MjModel, geom: int) -> np.ndarray:
 
 def _color(rgba: np.ndarray) -> list[float]:
     return [round(float(it), 3) for it in rgba[:3]]
+
+
+def _footprint(car: VehicleParameters) -> list[float]:
+    """Where the car is in its bird's-eye view: width, and how far nose and tail are above the lower edge [px]."""
+    view = BevConfig()
+    rear_axle = view.ego_above_bottom_px - view.pixels_per_metre * view.origin_ahead_of_rear_axle
+    tail = rear_axle - view.pixels_per_metre * car.rear_overhang
+    length, width = view.pixels_per_metre * car.length, view.pixels_per_metre * car.width
+    return [round(it, 2) for it in (width, tail + length, tail)]
 
 
 def _lamps(town: Town, model: mujoco.MjModel) -> dict[str, np.ndarray]:

@@ -14,6 +14,9 @@ from mjdrive.vehicle.cars import CarModel
 
 FORMAT = "mjdrive-gains-1"
 
+WORSE = 1.02
+"""A cost that rises by less than this factor is as good as before [-]."""
+
 Settings = TypeVar("Settings", PidConfig, MpcConfig)
 
 
@@ -68,17 +71,17 @@ class Gains:
 
     @property
     def doubt(self) -> str:
-        """Why they should not be used as they are: what the town that the search never saw says; empty if nothing."""
+        """What a town that the search never saw says against them; empty if it drives well, or there is none."""
         checked = self.checked_on
-        if checked is None:
+        if checked is None or checked.town_digest == self.tuned_on.town_digest:
             return ""
         before, after = checked.before, checked.after
-        if after.cost <= before.cost and after.mishaps <= before.mishaps:
+        if after.cost <= WORSE * before.cost and after.mishaps <= before.mishaps:
             return ""
         return (
             f"In {checked.town}, which the search never saw, the tuned settings drive worse than those before: cost {after.cost:.2f} "
-            f"instead of {before.cost:.2f}, mishaps {after.mishaps} instead of {before.mishaps}. They fit {self.tuned_on.town} alone; tune on a "
-            f"town with bends as tight as the tightest that will be driven, as with --town {checked.town} --check-town {self.tuned_on.town}."
+            f"instead of {before.cost:.2f}, mishaps {after.mishaps} instead of {before.mishaps}. Tune in the town that is harder to drive: "
+            f"`mjdrive tune {self.expert} --town {checked.town} --check-town {self.tuned_on.town}`."
         )
 
 

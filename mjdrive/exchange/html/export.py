@@ -13,4 +13,4 @@ def write(recording: Recording, path: Path, *, on_step: Callable[[int], None]) -
     Raises:
         DataError: If town or car are not those of the episode.
     """
-    EpisodePage(recording.episode, on_step=on_step).save(path)
+    EpisodePage(recording.episode, car=recording.car, on_step=on_step).save(path)

@@ -87,7 +87,8 @@ ARMS = (
     Arm("diffusion-sample", "diffusion", "Diffusion"),
     Arm("flow-sample", "flow", "Flow matching"),
 )
-"""How each method acts; the first of a method is its main way. BC-Beta and DA-IBC by mode and by sample are the 2 x 2 control."""
+"""How each method acts; the first of a method is its main way. BC-Beta and DA-IBC by mode and by sample are the 2 x 2 control; what is committed as
+well says what lasting chance does in either."""
 
 _PAPER_ARMS = (
     Arm("bc-beta-mode", "bc-beta", "BC-Beta, mode", ("beta.inference=mode",)),

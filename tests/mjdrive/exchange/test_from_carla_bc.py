@@ -57,7 +57,7 @@ def written(folder: Path, columns: Any, place: str = "route_00/ep_00") -> Path:
 def test_with_poses_and_times_the_drive_and_its_views_come_back(
     short_drive: Episode, tmp_path: Path
 ) -> None:
-    ((name, episode),) = from_carla_bc.read(written(tmp_path, in_carla(short_drive)))
+    ((name, episode, _),) = from_carla_bc.read(written(tmp_path, in_carla(short_drive)))
     assert (name, episode.town, episode.policy) == ("route_00_ep_00", "town02", "carla-bc")
     np.testing.assert_allclose(episode.actions, short_drive.labels)
     np.testing.assert_allclose(

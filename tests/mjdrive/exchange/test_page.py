@@ -1,6 +1,7 @@
 """The page by its content; tests/mjdrive/web/browser/test_exported_page.py opens it."""
 
 import base64
+import dataclasses
 import html
 import json
 import re
@@ -11,7 +12,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mjdrive.datatypes import Infraction
+from mjdrive.datatypes import Episode, Infraction
+from mjdrive.errors import DataError
 from mjdrive.exchange.html.page import EpisodePage
 from mjdrive.exchange.sources import Recording
 from mjdrive.exchange.views import ViewMaker
@@ -20,6 +22,7 @@ from mjdrive.page.replaying import episode_message
 from mjdrive.page.scene import scene_message
 from mjdrive.recording.playback import town_of
 from mjdrive.simulation.simulation import Simulation
+from mjdrive.vehicle import cars
 
 
 @pytest.fixture(scope="module")
@@ -85,6 +88,29 @@ def test_names_out_of_a_town_cannot_become_markup(
     assert head["infractions"][0][-1] == breach.cause
     assert breach.cause not in text
     assert text.count("</script>") == 2
+
+
+def test_another_car_is_drawn_as_it_is(short_drive: Episode, tmp_path: Path) -> None:
+    own = tmp_path / "own.xml"
+    own.write_text(cars.load("mkz").path.read_text())
+    mkz = Simulation(town_of(short_drive), car=cars.load("mkz"))
+    mkz.reset(lane=next(iter(mkz.town.lanes)), station=5.0, seed=0)
+    physics = np.stack([mkz.car.save()] * len(short_drive.time))
+    metadata = {**short_drive.metadata, "car": "own", "car_digest": cars.load(str(own)).digest}
+    episode = dataclasses.replace(short_drive, physics=physics, metadata=metadata)
+    with pytest.raises(DataError, match="--car"):
+        EpisodePage(episode)
+    (found,) = re.findall(
+        r'id="drive">(.*?)</script>', EpisodePage(episode, car=str(own)).text, flags=re.DOTALL
+    )
+    shown = json.loads(found)
+    scene, _ = told(shown["scene"])
+    width, nose, tail = scene["footprint"]
+    car = mkz.car.parameters
+    assert (width / 5, (nose - tail) / 5) == pytest.approx((car.width, car.length), abs=0.01)
+    _, blobs = told(shown["episode"])
+    assert blobs["poses"].shape == (len(episode.time), scene["bodies"], 7)
+    np.testing.assert_allclose(blobs["poses"][0, 0, :3], mkz.data.xpos[1], atol=1e-3)
 
 
 def test_a_notebook_shows_the_page_in_a_frame_of_its_own(recordings: list[Recording]) -> None:

@@ -9,6 +9,12 @@ const FIRST = new URLSearchParams(location.search);
 
 export const asked = (name: Name | "noaa"): string | null => FIRST.get(name);
 
+/** Time to begin a replay at [s]; undefined for its start. */
+export function askedTime(): number | undefined {
+  const time = asked("t");
+  return time === null || Number.isNaN(Number(time)) ? undefined : Number(time);
+}
+
 /** All values of a name that may come several times; none at all is something else than an empty one. */
 export const askedAll = (name: Name): string[] | null => (FIRST.has(name) ? FIRST.getAll(name) : null);
 

@@ -15,14 +15,13 @@ const CHANNELS: { name: string; swatch: Rgb; share: number; color(value: number)
   { name: "0.8 s ago", swatch: [120, 128, 138], share: 0.55, color: signal },
   { name: "now", swatch: [120, 128, 138], share: 1, color: signal },
 ];
-const REAR_AXLE_UP_PX = 40;
-const CAR_PX = { width: 9, length: 24, behind: 12 };
 
 export class BevPanel {
   private readonly canvas = $<HTMLCanvasElement>("bev");
   private readonly shown = CHANNELS.map(() => true);
   private image?: ImageData;
   private planes?: Blob_;
+  private car = [0, 0, 0]; // its width, and how far its nose and its tail are above the lower edge [px]
 
   constructor() {
     $("channels").append(...CHANNELS.map(({ name, swatch }, channel) => {
@@ -33,6 +32,9 @@ export class BevPanel {
       return label;
     }));
   }
+
+  /** Say where in the view the car is: its width, and how far its nose and its tail are above the lower edge [px]. */
+  setCar(footprint: number[]): void { this.car = footprint; }
 
   show(planes: Blob_, size: number): void {
     this.planes = planes;
@@ -63,10 +65,10 @@ export class BevPanel {
 
   /** A mark for the eye, no part of the view. */
   private drawCar(pen: CanvasRenderingContext2D, size: number): void {
-    const { width, length, behind } = CAR_PX, left = size / 2 - width / 2, top = size - REAR_AXLE_UP_PX - behind;
+    const [width, nose, tail] = this.car, left = size / 2 - width / 2, top = size - nose;
     pen.strokeStyle = COLORS.trail;
     pen.lineWidth = 1.4;
-    pen.strokeRect(left, top, width, length);
+    pen.strokeRect(left, top, width, nose - tail);
     pen.beginPath(); pen.moveTo(left, top + 6); pen.lineTo(size / 2, top + 2); pen.lineTo(left + width, top + 6); pen.stroke();
   }
 }

@@ -48,6 +48,7 @@ export class Live {
     this.town = scene.head.town;
     this.view?.setTown(scene);
     this.map.setTown(scene);
+    this.bev.setCar(scene.head.footprint);
     this.map.draw();
   }
 

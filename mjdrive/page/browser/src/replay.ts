@@ -75,6 +75,7 @@ export class Replay {
   }
 
   toggle(): void {
+    if (!this.isOpen) return;
     this.isPlaying = !this.isPlaying;
     if (this.isPlaying && this.step >= this.length - 1) this.step = 0;
     say(this.play, this.isPlaying ? "Pause" : "Play");
@@ -88,7 +89,7 @@ export class Replay {
     if (this.isOpen) this.go(Math.round((time - this.row(0)[0]) * 1000 / STEP_MS));
   }
 
-  stepBy(steps: number): void { this.go(this.step + steps); }
+  stepBy(steps: number): void { if (this.isOpen) this.go(this.step + steps); }
 
   private get length(): number { return this.episode!.blobs.rows.length / COLUMNS; }
 

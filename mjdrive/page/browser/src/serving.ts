@@ -1,5 +1,5 @@
 // The page of a server: what is driven now, episodes and runs.
-import { asked, remember } from "./address";
+import { asked, askedTime, remember } from "./address";
 import { Controls } from "./controls";
 import { $ } from "./dom";
 import { Episodes } from "./episodes";
@@ -112,8 +112,8 @@ markChosen($("tabs"), (it) => it.id === "tab-live");
 $("help-open").onclick = () => toggleHelp();
 addEventListener("live-again", () => void showLive());
 await loadScene();
-const [tab, episode, time] = [TABS.find((it) => it === asked("tab")), asked("episode"), asked("t")];
+const tab = TABS.find((it) => it === asked("tab")), episode = asked("episode");
 if (tab) choose(tab);
-if (episode) void replay.open(episode, time === null || Number.isNaN(Number(time)) ? undefined : Number(time));
+if (episode) void replay.open(episode, askedTime());
 // For tests: what has been drawn so far.
 Object.assign(window, { mjdrive: { live, replay, state: () => state } });

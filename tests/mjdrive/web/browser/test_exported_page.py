@@ -23,10 +23,10 @@ PATIENCE = 240.0
 
 IS_GROUND = """
 () => { // of every pixel, "1" where the page shows no road, no line and no light
-  const { data, width } = document.getElementById("bev").getContext("2d").getImageData(0, 0, 192, 192);
+  const canvas = document.getElementById("bev"), { data } = canvas.getContext("2d").getImageData(0, 0, 192, 192);
   let found = "";
   for (let at = 0; at < data.length; at += 4) found += data[at] === 22 && data[at + 1] === 25 && data[at + 2] === 30 ? "1" : "0";
-  return width === 192 ? found : "";
+  return canvas.width === 192 && canvas.height === 192 ? found : "";
 }
 """
 
