@@ -21,6 +21,10 @@ from mjdrive.town.lane_graph import lane_length
 from mjdrive.town.route_line import lay
 from mjdrive.vehicle import cars
 
+pytestmark = pytest.mark.timeout(
+    900
+)  # a route takes 20 s on a core of its own, and many times that where others want it
+
 LATEST_START = 1.0
 LATE_BRAKING = PidConfig().late_braking
 RUN_UP = 45.0  # from rest to the target speed and the stop line [m]
