@@ -21,9 +21,8 @@ from mjdrive.town.lane_graph import lane_length
 from mjdrive.town.route_line import lay
 from mjdrive.vehicle import cars
 
-pytestmark = pytest.mark.timeout(
-    900
-)  # a route takes 20 s on a core of its own, and many times that where others want it
+# A route takes 20 s on a core of its own, and many times that where others want it.
+pytestmark = pytest.mark.timeout(900)
 
 LATEST_START = 1.0
 LATE_BRAKING = PidConfig().late_braking
