@@ -13,7 +13,6 @@ from models.beta_density import (
     beta_mode,
     draw_beta,
     draw_label_noise,
-    draw_lasting,
     log_cell_masses,
     noisy_units,
     unit_from_action,
@@ -22,6 +21,7 @@ from models.config import LearnerConfig
 from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_action, policy_head
 from models.interfaces import ACTION_SIZE, Batch, Chance, Learner, weighted_mean
 from models.samplers.commitment import Commitment
+from models.samplers.grid import draw_points
 from models.threads import one_thread
 
 
@@ -86,7 +86,8 @@ class BcBetaLearner(Learner):
             unit = distribution.mean
         elif commitment is not None:
             each = log_cell_masses(alpha, beta)  # (B, 2, P)
-            return draw_lasting(each[:, 0, :, None] + each[:, 1, None, :], commitment)
+            masses = (each[:, 0, :, None] + each[:, 1, None, :]).flatten(1)
+            return draw_points(masses, generator=generator, commitment=commitment)
         else:
             unit = draw_beta(alpha, beta, generator=generator)
         return 2 * unit - 1

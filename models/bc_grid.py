@@ -9,8 +9,7 @@ from models.config import LearnerConfig
 from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_action, policy_head
 from models.interfaces import ACTION_BOUND, Batch, Chance, Learner, weighted_mean
 from models.samplers.commitment import Commitment
-from models.samplers.draws import draw_categorical
-from models.samplers.grid import action_grid, cell_areas, cell_widths
+from models.samplers.grid import action_grid, cell_areas, cell_widths, draw_points
 from models.threads import one_thread
 
 
@@ -69,18 +68,14 @@ class BcGridLearner(Learner):
         settings = self.config.categorical
         with one_thread():
             log_probabilities = self.log_probabilities(bev, state)
-        actions = action_grid(settings.points, device=log_probabilities.device)
         log_areas = cell_areas(settings.points, device=log_probabilities.device).log()
         log_densities = log_probabilities - log_areas
         if settings.choice == "argmax":
+            actions = action_grid(settings.points, device=log_probabilities.device)
             return actions[log_densities.argmax(dim=1)]
         # The density is tempered, so that the coldest sample is the densest point.
         log_weights = log_densities / settings.temperature + log_areas
-        if commitment is None:
-            drawn = draw_categorical(torch.softmax(log_weights, dim=1), 1, generator=generator)
-        else:
-            drawn = commitment.draw(log_weights)
-        return actions[drawn.squeeze(1)]
+        return draw_points(log_weights, generator=generator, commitment=commitment)
 
     @torch.no_grad()
     def log_density(

@@ -13,7 +13,6 @@ from models.beta_density import (
     beta_mode,
     draw_beta,
     draw_label_noise,
-    draw_lasting,
     log_cell_masses,
     noisy_units,
     unit_from_action,
@@ -23,6 +22,7 @@ from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_act
 from models.interfaces import ACTION_SIZE, Batch, Chance, Learner, weighted_mean
 from models.samplers.commitment import Commitment
 from models.samplers.draws import draw_categorical, pick
+from models.samplers.grid import draw_points
 from models.threads import one_thread
 
 # Sum of both concentrations of a component before training: a standard deviation of 0.4 in [-1, 1].
@@ -94,7 +94,8 @@ class BcMixtureLearner(Learner):
         elif self.config.beta.inference == "mean":
             unit = (log_weights.exp()[..., None] * components.mean).sum(dim=1)
         elif commitment is not None:
-            return draw_lasting(mixture_log_masses(log_weights, components), commitment)
+            masses = mixture_log_masses(log_weights, components).flatten(1)
+            return draw_points(masses, generator=generator, commitment=commitment)
         else:
             drawn = draw_categorical(log_weights.exp(), 1, generator=generator)  # (B, 1)
             alpha, beta = (

@@ -8,9 +8,6 @@ from torch import Tensor
 from torch.distributions import Beta
 from torch.nn import functional as F  # noqa: N812
 
-from models.samplers.commitment import Commitment
-from models.samplers.grid import action_grid
-
 # Softplus underflows to zero, where the Beta density does not exist.
 SMALLEST_CONCENTRATION = 1e-6
 
@@ -127,19 +124,3 @@ def log_cell_masses(
     padded = F.pad(parts, (PARTS, PARTS), value=-torch.inf)
     masses = torch.logsumexp(padded.unflatten(-1, (points, 2 * PARTS)), dim=-1)
     return F.log_softmax(masses, dim=-1)
-
-
-def draw_lasting(
-    log_masses: Float[Tensor, "B P P"], commitment: Commitment
-) -> Float[Tensor, "B 2"]:
-    """Draw cells with what lasts from decision to decision.
-
-    Args:
-        log_masses: Of the cells of even points, acceleration first [nats].
-        commitment: What lasts.
-
-    Returns:
-        Actions in [-1, 1], the points of the cells [-].
-    """
-    actions = action_grid(log_masses.shape[-1], device=log_masses.device)
-    return actions[commitment.draw(log_masses.flatten(1)).squeeze(1)]

@@ -52,11 +52,30 @@ def choose(
         on_energies(energies)
     if config.choice == "argmin":
         return actions[energies.argmin(dim=1)]
-    log_weights = -energies / config.temperature
+    return draw_points(-energies / config.temperature, generator=generator, commitment=commitment)
+
+
+def draw_points(
+    log_weights: Float[Tensor, "B N"],
+    *,
+    generator: torch.Generator,
+    commitment: Commitment | None,
+) -> Float[Tensor, "B 2"]:
+    """Draw one point of a square grid for each observation.
+
+    Args:
+        log_weights: Of each point, acceleration outermost, up to a constant of each row [nats].
+        generator: Source of chance, on their device.
+        commitment: What lasts from decision to decision; None draws among all points.
+
+    Returns:
+        Acceleration and steering [-].
+    """
     if commitment is None:
         drawn = draw_categorical(torch.softmax(log_weights, dim=1), 1, generator=generator)
     else:
         drawn = commitment.draw(log_weights)
+    actions = action_grid(round(log_weights.shape[1] ** 0.5), device=log_weights.device)
     return actions[drawn.squeeze(1)]
 
 

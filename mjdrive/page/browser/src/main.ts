@@ -2,4 +2,3 @@
 import "./style.css";
 
 await (document.getElementById("drive") ? import("./alone") : import("./serving"));
-export {};
