@@ -2,7 +2,7 @@
 
 import dataclasses
 import json
-from typing import Any
+from typing import Any, Literal, get_args, get_origin
 
 import cattrs
 from cattrs.v import format_exception
@@ -35,9 +35,21 @@ def _strict_converter() -> cattrs.Converter:
 
 def _reason(error: BaseException, kind: Any) -> str:
     """What was wrong with one value, in the words of the check that refused it."""
+    if isinstance(error, cattrs.ForbiddenExtraKeysError):
+        names = ", ".join(field.name for field in dataclasses.fields(error.cl))
+        return f"{format_exception(error, kind)}; expected {names}"
+    if get_origin(kind) is Literal:
+        value = str(error).partition(" not in literal")[0]
+        return f"there is no '{value}'; expected {', '.join(map(str, get_args(kind)))}"
     if isinstance(error, SettingError | TypeError):
         return str(error)
     return format_exception(error, kind)
+
+
+def _placed(reason: str) -> str:
+    """A sentence that begins with the place of what it is about, which cattrs puts at its end."""
+    words, _, place = reason.rpartition(" @ ")
+    return f"in {place}, {words.removesuffix('.')}."
 
 
 _CONVERTER = _strict_converter()
@@ -63,8 +75,6 @@ def from_json(text: str) -> LearnerConfig:
     try:
         return _CONVERTER.structure(values, LearnerConfig)
     except cattrs.BaseValidationError as error:
-        reasons = "; ".join(
-            cattrs.transform_error(error, path="settings", format_exception=_reason)
-        )
-        names = ", ".join(field.name for field in dataclasses.fields(LearnerConfig))
-        raise SettingError(f"Cannot read settings: {reasons}. Expected: {names}.") from error
+        found = cattrs.transform_error(error, path="settings", format_exception=_reason)
+        reasons = " ".join(_placed(reason) for reason in found)
+        raise SettingError(f"Cannot read settings: {reasons}") from error

@@ -53,6 +53,13 @@ def _list_shipped(ctx: click.Context, param: click.Parameter, value: str | None)
     metavar="standard|quick|paper",
     help="How a trained policy chooses its actions. [default: as it was trained to]",
 )
+@click.option(
+    "--set",
+    "acting",
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="Change one setting of how it does, as commitment.hold=0. May be given again.",
+)
 @car_option
 @gains_option
 @solver_options
@@ -89,6 +96,7 @@ def drive(
     num_steps: int,
     policy_name: str | None,
     preset: str | None,
+    acting: tuple[str, ...],
     car_name: str,
     gains: Path | None,
     solver: str | None,
@@ -118,7 +126,11 @@ def drive(
     car = cars.load(car_name)
     town = library.load(town_name)
     driver = find_driver(
-        policy_name, RUNS, preset=preset, on_note=lambda note: click.echo(note, err=True)
+        policy_name,
+        RUNS,
+        preset=preset,
+        acting=acting,
+        on_note=lambda note: click.echo(note, err=True),
     )
     if gains is not None:
         driver = driver.tuned(gains, car)

@@ -1,7 +1,7 @@
 """Who drives: the expert, or a trained run, behind one call."""
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -159,6 +159,7 @@ def find_driver(
     runs: Path,
     *,
     preset: str | None = None,
+    acting: Sequence[str] = (),
     on_note: Callable[[str], None] = lambda note: None,
 ) -> Driver:
     """Find out who shall drive.
@@ -168,25 +169,20 @@ def find_driver(
             the newest run and, where there is none, the shipped policy that drives by default.
         runs: Folder of run folders.
         preset: How a trained policy chooses its actions; as it was trained to if None.
+        acting: Changes to how it does, each as "commitment.hold=0".
         on_note: Told in a line who drives if that may surprise.
 
     Raises:
-        ConfigError: If there is no such preset, or it has no effect.
-        UnknownNameError: If there is no such policy.
+        ConfigError: If there is no such preset, a change is none of how a policy acts, or they have no effect.
+        UnknownNameError: If there is no such policy or setting.
         RunError: If the folder is no run, or damaged.
         PluginError: If the package that brings it along is broken.
     """
     if name in experts.names():
-        if preset is not None:
-            raise ConfigError(
-                f"--preset {preset} has no effect on the expert. Leave it out, or name a trained policy."
-            )
+        _require_no_acting(name, preset, acting)
         return _expert_driver(CollectConfig(expert=experts.known(name)))
     if name is not None and name in plugins.names("policy"):
-        if preset is not None:
-            raise ConfigError(
-                f"--preset {preset} has no effect on '{name}', which another package brings along. Leave it out."
-            )
+        _require_no_acting(name, preset, acting)
         return _plugin_driver(name)
     from mjdrive.learning import pilot  # torch takes a second
     from mjdrive.learning import runs as run_folders
@@ -194,7 +190,7 @@ def find_driver(
     from models import checkpoint, serialization
 
     folder, name = _find_run(name, runs, on_note)
-    policy = pilot.load(folder, name=name, preset=preset)
+    policy = pilot.load(folder, name=name, preset=preset, acting=acting)
     source = config.read_json(Source, folder / run_folders.SOURCE)
     return Driver(
         policy.name,
@@ -204,6 +200,15 @@ def find_driver(
         device=str(policy.device),
         learnt_cars=source.cars,
     )
+
+
+def _require_no_acting(name: str, preset: str | None, acting: Sequence[str]) -> None:
+    """Refuse changes to how a trained policy acts where there is none."""
+    given = ([] if preset is None else [f"--preset {preset}"]) + [f"--set {it}" for it in acting]
+    if given:
+        raise ConfigError(
+            f"{given[0]} has no effect on '{name}', which mjdrive has not trained. Leave it out, or name a trained policy."
+        )
 
 
 def _find_run(

@@ -1,13 +1,14 @@
 """Trained network -> `Policy[Observation]`."""
 
 import dataclasses
+from collections.abc import Iterable
 from pathlib import Path
 
 import torch
 
 from mjdrive.datatypes import Action, Observation
 from mjdrive.errors import RunError
-from mjdrive.learning.settings import acting_settings
+from mjdrive.learning.settings import acting_changed, acting_settings
 from models import checkpoint
 from models.energy_scoring import resolved_for
 from models.errors import ModelsError
@@ -76,6 +77,7 @@ def load(
     *,
     name: str | None = None,
     preset: str | None = None,
+    acting: Iterable[str] = (),
     device: torch.device | str | None = None,
 ) -> Pilot:
     """Load the policy of a training run.
@@ -84,6 +86,7 @@ def load(
         run: Folder that `mjdrive train` made, or that of a shipped policy.
         name: How summaries call it; as the folder if None.
         preset: Whose way to choose actions to take; the run's own if None.
+        acting: Changes to that way, each as "commitment.hold=0".
         device: Where it acts; a GPU where there is one, else the CPU, if None.
 
     Returns:
@@ -91,7 +94,8 @@ def load(
 
     Raises:
         RunError: If the folder is no run, or a file of it is damaged.
-        ConfigError: If there is no such preset.
+        ConfigError: If there is no such preset, or a change is none or decides what is learnt.
+        UnknownNameError: If there is no such setting.
     """
     try:
         learner = checkpoint.load(run)
@@ -99,4 +103,5 @@ def load(
         raise RunError(str(error)) from error
     if preset is not None:
         learner.config = acting_settings(learner.config, preset=preset)
+    learner.config = acting_changed(learner.config, acting)
     return Pilot(learner, name=name or run.resolve().name, device=device)
