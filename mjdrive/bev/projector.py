@@ -15,7 +15,7 @@ from mjdrive.bev.layers import channel_names
 from mjdrive.bev.rasters import draw_lanes
 from mjdrive.bev.stop_lines import StopLines
 from mjdrive.config import BevConfig
-from mjdrive.datatypes import Town
+from mjdrive.datatypes import Episode, Town
 from mjdrive.errors import ConfigError
 from mjdrive.town.scenery import Scenery
 from mjdrive.town.scenery.blocks import Block
@@ -101,6 +101,21 @@ class BevProjector:
         if vehicles:
             draw_vehicles(bev[self.channels.index("vehicles")], view_from_world, vehicles)
         return bev
+
+    def replay(self, episode: Episode, step: int) -> UInt8[np.ndarray, "C S S"]:
+        """Draw what was seen when an action of a drive was chosen.
+
+        Args:
+            episode: Driven in this town.
+            step: Which action, from 0 [-].
+
+        Raises:
+            ConfigError: If the view has a layer for the route, which episodes do not hold.
+        """
+        x, y, yaw = episode.vehicle[step, :3].tolist()
+        return self.project(
+            x=x, y=y, yaw=yaw, time=float(episode.time[step]), light_phase=episode.light_phase
+        )
 
     def view_from_world(self, *, x: float, y: float, yaw: float) -> Float[np.ndarray, "3 3"]:
         """Tell where a view shows the world: `view_from_world @ (x, y, 1)` is (column, row, 1).

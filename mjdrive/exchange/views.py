@@ -31,10 +31,7 @@ class ViewMaker:
             episode: One of the town.
             step: Which action, from 0 [-].
         """
-        x, y, yaw = episode.vehicle[step, :3].tolist()
-        return self._projector.project(
-            x=x, y=y, yaw=yaw, time=float(episode.time[step]), light_phase=episode.light_phase
-        )
+        return self._projector.replay(episode, step)
 
     def png(self, episode: Episode, step: int, parameters: VehicleParameters) -> bytes:
         """The same as people like to look at it, as a PNG file.

@@ -93,14 +93,7 @@ def view_at(episode: Episode, step: int) -> UInt8[np.ndarray, "5 S S"]:
         DataError: If the town has changed since.
         UnknownNameError: If there is no such town.
     """
-    x, y, yaw, *_ = episode.vehicle[step]
-    return _projector(town_of(episode)).project(
-        x=float(x),
-        y=float(y),
-        yaw=float(yaw),
-        time=float(episode.time[step]),
-        light_phase=episode.light_phase,
-    )
+    return _projector(town_of(episode)).replay(episode, step)
 
 
 @lru_cache(maxsize=2)

@@ -87,9 +87,7 @@ class _Studio(NamedTuple):
 
     def panels(self, episode: Episode, step: int) -> tuple[UInt8[np.ndarray, "P P 3"], ...]:
         """What the policy sees at a step, what it thinks of every action, and where the car is."""
-        x, y, yaw = episode.vehicle[step, :3].tolist()
-        time = float(episode.time[step])
-        bev = self.projector.project(x=x, y=y, yaw=yaw, time=time, light_phase=episode.light_phase)
+        bev = self.projector.replay(episode, step)
         seen = Observation(bev=bev, state=states(episode)[step])
         config = self.projector.config
         scale = PANEL // config.size_px
@@ -105,7 +103,7 @@ class _Studio(NamedTuple):
                 start[:2] + MIDDLE_AHEAD * ahead,
                 episode.vehicle[: step + 1],
                 self.parameters,
-                clock=time + episode.light_phase,
+                clock=float(episode.time[step]) + episode.light_phase,
             ),
         )
 
