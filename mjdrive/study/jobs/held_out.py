@@ -64,10 +64,7 @@ def held_out(
         state = states(episode)
         near = _at_junction(episode, town)
         for row in rows.tolist():
-            x, y, yaw = episode.vehicle[row, :3].tolist()
-            time, phase = float(episode.time[row]), episode.light_phase
-            bev = projector.project(x=x, y=y, yaw=yaw, time=time, light_phase=phase)
-            seen.append(Observation(bev=bev, state=state[row].copy()))
+            seen.append(Observation(projector.replay(episode, row), state[row].copy()))
             labels.append(episode.labels[row])
             at_junction.append(bool(near[row]))
         first += len(episode.time)
