@@ -25,12 +25,19 @@ from models.samplers.draws import draw_categorical, pick
 from models.samplers.grid import draw_points
 from models.threads import one_thread
 
-# Sum of both concentrations of a component before training: a standard deviation of 0.4 in [-1, 1].
-FIRST_CONCENTRATION = 6.0
+LEAST_CONCENTRATION = 5.0
+"""Smallest sum of both concentrations of a component, a standard deviation of at most 0.41 in [-1, 1] [-].
+
+What is broader is for several components to cover. One that may become uniform has no side to which its peak could move, so
+it stays so: drives of such a mixture coasted through red lights (docs/notes.md).
+"""
 
 
 class BcMixtureLearner(Learner):
     """Explicit and multimodal: p(y | x) is a weighted sum of products of two Beta densities.
+
+    The network tells of each where its peak is and how sharp it is, not the concentrations: those of a component that learns
+    nothing for a while would end where softplus is flat, and come back from there no more.
 
     Reference:
         Bishop, Mixture Density Networks, 1994.
@@ -43,10 +50,11 @@ class BcMixtureLearner(Learner):
         self.encoder = Encoder(config.network)
         self.head = policy_head(self.encoder.feature_size)
         self.weights = nn.Linear(HIDDEN_SIZE, num)
-        self.concentrations = nn.Linear(HIDDEN_SIZE, num * ACTION_SIZE * 2)
+        self.peaks = nn.Linear(HIDDEN_SIZE, num * ACTION_SIZE)
+        self.sharpness = nn.Linear(HIDDEN_SIZE, num * ACTION_SIZE)
         with torch.no_grad():
-            first = _spread_components(num, config.beta.beta_offset)
-            self.concentrations.bias.copy_(first.flatten())
+            self.peaks.bias.copy_(torch.logit(_spread_points(num)).flatten())
+            self.sharpness.bias.zero_()
 
     def mixture(
         self, bev: UInt8[Tensor, "B C H W"], state: Float[Tensor, "B 3"]
@@ -54,9 +62,13 @@ class BcMixtureLearner(Learner):
         """Log weights [nats], and distributions (B, K, 2) of actions rescaled to [0, 1] [-], in single precision."""
         hidden = self.head(self.encoder(bev, state))
         log_weights = F.log_softmax(self.weights(hidden).float(), dim=1)  # (B, K)
-        raw = self.concentrations(hidden).float().unflatten(1, (-1, ACTION_SIZE, 2))
+        peaks, raw = (
+            layer(hidden).float().unflatten(1, (-1, ACTION_SIZE))
+            for layer in (self.peaks, self.sharpness)
+        )  # (B, K, 2) each
         offset = self.config.beta.beta_offset + SMALLEST_CONCENTRATION
-        alpha, beta = (F.softplus(raw) + offset).unbind(dim=-1)  # (B, K, 2) each
+        shared = LEAST_CONCENTRATION + squareplus(raw) - 2 * offset
+        alpha, beta = offset + shared * peaks.sigmoid(), offset + shared * (-peaks).sigmoid()
         return log_weights, Beta(alpha, beta, validate_args=False)
 
     def draw(self, actions: Float[Tensor, "B 2"], *, generator: torch.Generator) -> Chance:
@@ -120,6 +132,23 @@ class BcMixtureLearner(Learner):
         return log_unit - ACTION_SIZE * math.log(2)  # an action is twice as wide as its unit
 
 
+def squareplus(raw: Float[Tensor, "*B"]) -> Float[Tensor, "*B"]:
+    """Make numbers positive as softplus does, but with a slope that fades with the square of the distance, not exponentially.
+
+    Args:
+        raw: Any numbers [-].
+
+    Returns:
+        Positive numbers, 1 for 0 [-].
+
+    Reference:
+        Barron, Squareplus: A Softplus-Like Algebraic Rectifier, 2021.
+    """
+    root = torch.sqrt(raw * raw + 4)
+    # Far below zero the sum would lose its digits.
+    return torch.where(raw > 0, (raw + root) / 2, 2 / (root - raw.clamp(max=0)))
+
+
 def mixture_log_prob(
     log_weights: Float[Tensor, "B K"], components: Beta, unit: Float[Tensor, "A N 2"]
 ) -> Float[Tensor, "B N"]:
@@ -160,15 +189,12 @@ def mixture_mode(
     return pick(modes, densest).squeeze(1)
 
 
-def _spread_components(num: int, beta_offset: int) -> Float[Tensor, "K 2 2"]:
-    """First concentrations before softplus: components that start alike would stay alike.
+def _spread_points(num: int) -> Float[Tensor, "K 2"]:
+    """First peaks of the components, evenly over the unit square: those that start alike would stay alike [-].
 
     Reference:
         Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018: points that fill a square evenly.
     """
     plastic = 1.324717957244746
     steps = torch.tensor([1 / plastic, 1 / plastic**2])
-    means = 0.15 + 0.7 * ((0.5 + torch.arange(num)[:, None] * steps) % 1)  # (K, 2)
-    wanted = FIRST_CONCENTRATION * torch.stack((means, 1 - means), dim=-1)
-    # Softplus gives what the offset leaves to it.
-    return torch.log(torch.expm1((wanted - beta_offset).clamp(min=0.1)))
+    return 0.05 + 0.9 * ((0.5 + torch.arange(num)[:, None] * steps) % 1)

@@ -11,7 +11,7 @@ class BetaConfig:
     """Loss and inference of BC-Beta, and of each component of a BC mixture; without effect on the other methods.
 
     Attributes:
-        beta_offset: Added to both concentrations after softplus; 1 forbids densities with peaks at both ends [-].
+        beta_offset: What both concentrations exceed; 1 forbids densities with peaks at both ends [-].
         label_clamp: Smallest distance that labels, rescaled to [0, 1], keep from the ends [-].
         label_noise: Standard deviation of the noise on labels in training; without it labels that repeat exactly draw the concentrations to infinity [-].
         entropy_bonus: Factor on the entropy that is subtracted from the loss; BC-Beta alone has it in closed form [-].
@@ -36,7 +36,7 @@ class MixtureConfig:
     """Size of a BC mixture; loss and inference are those of `BetaConfig`.
 
     Attributes:
-        components: Betas in the mixture; one is BC-Beta [-].
+        components: Products of two Betas in the mixture [-].
     """
 
     components: int = 5

@@ -6,7 +6,13 @@ import torch
 from torch import nn
 from torch.distributions import Beta
 
-from models.bc_mixture import BcMixtureLearner, mixture_log_prob, mixture_mode
+from models.bc_mixture import (
+    LEAST_CONCENTRATION,
+    BcMixtureLearner,
+    mixture_log_prob,
+    mixture_mode,
+    squareplus,
+)
 from models.config import CommitmentConfig, LearnerConfig
 from models.errors import SettingError
 from models.samplers.commitment import Commitment
@@ -117,10 +123,53 @@ def test_the_density_integrates_to_one(trained, fork):
 
 @pytest.mark.parametrize("beta_offset", [0, 1])
 @pytest.mark.parametrize("num", [1, 5, 12])
-def test_components_start_apart_with_the_concentration_that_they_are_to_have(
+def test_components_start_apart_and_hardly_sharper_than_they_may_be(
     beta_offset, num, small_config, fork
 ):
-    config = small_config("bc-mixture")
+    learner = without_encoder(small_config("bc-mixture"), num, beta_offset=beta_offset)
+    _, components = learner.mixture(*fork.unseen(1))
+    distances = torch.cdist(components.mean[0], components.mean[0]) + torch.eye(num)
+    assert float(distances.min().detach()) > 0.1
+    total = components.concentration1 + components.concentration0
+    torch.testing.assert_close(total, torch.full_like(total, LEAST_CONCENTRATION + 1))
+
+
+@pytest.mark.parametrize("beta_offset", [0, 1])
+def test_a_component_that_became_as_broad_as_it_can_learns_again(beta_offset, small_config, fork):
+    """With concentrations that are softplus of what the network says, it would stay uniform: a slope of e^-30."""
+    learner = without_encoder(small_config("bc-mixture"), 1, beta_offset=beta_offset)
+    with torch.no_grad():
+        learner.sharpness.bias.fill_(-30.0)
+    _, before = learner.mixture(*fork.unseen(1))
+    assert float(before.stddev.detach().max()) < 0.21
+    label = torch.tensor([0.35, 0.5])  # braking
+    biases = [learner.peaks.bias, learner.sharpness.bias]
+    optimiser = torch.optim.Adam(biases, lr=2.0)
+    schedule = torch.optim.lr_scheduler.ExponentialLR(optimiser, 0.995)
+    noisy = label + 0.05 * torch.randn(1, 4096, 2)
+    for _ in range(1000):
+        optimiser.zero_grad()
+        log_weights, components = learner.mixture(*fork.unseen(1))
+        (-mixture_log_prob(log_weights, components, noisy).mean()).backward()
+        optimiser.step()
+        schedule.step()
+    _, after = learner.mixture(*fork.unseen(1))
+    torch.testing.assert_close(after.mean[0, 0], label, rtol=0, atol=0.01)
+    torch.testing.assert_close(after.stddev[0, 0], torch.full((2,), 0.05), rtol=0.1, atol=0)
+
+
+def test_squareplus_is_softplus_with_a_tail_that_still_slopes():
+    raw = torch.tensor([-1e4, -25.0, -1.0, 0.0, 1.0, 25.0, 1e4], requires_grad=True)
+    squareplus(raw).sum().backward()
+    precise = raw.detach().double()
+    root = torch.sqrt(precise**2 + 4)
+    torch.testing.assert_close(squareplus(raw).double(), (precise + root) / 2, rtol=1e-5, atol=0)
+    torch.testing.assert_close(raw.grad.double(), (1 + precise / root) / 2, rtol=1e-3, atol=1e-9)
+    assert float(raw.grad[1]) > 1e-3
+
+
+def without_encoder(config, num, *, beta_offset):
+    """A mixture that sees nothing, so that the biases of its last layers are all it says."""
     config = dataclasses.replace(
         config,
         beta=dataclasses.replace(config.beta, beta_offset=beta_offset),
@@ -130,14 +179,8 @@ def test_components_start_apart_with_the_concentration_that_they_are_to_have(
     learner = BcMixtureLearner(config)
     learner.encoder = nn.Flatten()
     learner.head = nn.Identity()
-    nothing = torch.zeros(1, 256)
-    learner.encoder.forward = lambda bev, state: nothing
-    _, components = learner.mixture(*fork.unseen(1))
-    distances = torch.cdist(components.mean[0], components.mean[0]) + torch.eye(num)
-    assert float(distances.min().detach()) > 0.1
-    if beta_offset == 0:  # no component starts below what an offset leaves to softplus
-        total = components.concentration1 + components.concentration0
-        torch.testing.assert_close(total, torch.full_like(total, 6.0))
+    learner.encoder.forward = lambda bev, state: torch.zeros(1, 256)
+    return learner
 
 
 def test_an_entropy_bonus_is_refused(small_config):
