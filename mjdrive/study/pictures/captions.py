@@ -56,6 +56,11 @@ CAPTIONS = {
 """Title and text of each kind of picture."""
 
 TABLES = {
+    "summary.md": (
+        "In short",
+        "What happened in all drives of a policy, a number for each agent (for each walk of the expert); ratios with 95 % "
+        "bootstrap intervals over training seeds and drives.",
+    ),
     "ratios.md": (
         "The result to reach",
         "Policies beside the bars that were set; 95 % bootstrap intervals over training seeds and drives in brackets.",

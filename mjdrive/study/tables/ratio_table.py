@@ -73,8 +73,8 @@ def _cells(row: Row, expert: Row | None, found: StudyResults) -> list[str]:
     together = found.pooled.get(row.results[0].arm)
     return [
         cell(row.per_drive(_penalty)),
-        _distance_ratio(row, expert),
-        _recall_ratio(row, expert),
+        distance_ratio(row, expert),
+        recall_ratio(row, expert),
         _long_recall(row),
         number(together.divergence if together else None, digits=3),
         number(together.divergence_floor if together else None, digits=3),
@@ -92,7 +92,8 @@ def _distance(drive: DriveFigures) -> float:
     return drive.distance_m
 
 
-def _distance_ratio(row: Row, expert: Row | None) -> str:
+def distance_ratio(row: Row, expert: Row | None) -> str:
+    """Distance by that of the expert, with its own chance taken into account."""
     if expert is None:
         return NOTHING
     figures = row.per_drive(_distance)
@@ -100,8 +101,8 @@ def _distance_ratio(row: Row, expert: Row | None) -> str:
     return NOTHING if found is None else str(found)
 
 
-def _recall_ratio(row: Row, expert: Row | None) -> str:
-    """To the mean of all walks of the expert, as one of them is a matter of chance."""
+def recall_ratio(row: Row, expert: Row | None) -> str:
+    """Branch recall by the mean of all walks of the expert, as one of them is a matter of chance."""
     walks = None if expert is None else expert.per_agent(lambda it: it.choices.recall)
     if walks is None or not walks.any():
         return NOTHING

@@ -33,11 +33,13 @@ from mjdrive.study.tables.rows import (
     reference_rows,
     training_seeds,
 )
+from mjdrive.study.tables.summary_table import summary_table
 
 TABLES = "tables"
 """Folder of the tables."""
 
-PAPER, MULTIMODALITY, RATIOS, ABLATIONS, DATA = (
+SUMMARY, PAPER, MULTIMODALITY, RATIOS, ABLATIONS, DATA = (
+    "summary.md",
     "paper.md",
     "multimodality.md",
     "ratios.md",
@@ -61,6 +63,7 @@ def write_tables(folder: Path) -> None:
     config = read_json(StudyRecord, folder / STUDY).settings
     found = read_json(StudyResults, folder / RESULTS)
     for name, text in {
+        SUMMARY: summary_table(config, found),
         PAPER: paper_table(config, found),
         MULTIMODALITY: multimodality_table(config, found),
         RATIOS: ratio_table(config, found),

@@ -13,6 +13,7 @@ from mjdrive.study.records.measures import Curve, DriveFigures, Likelihood
 from mjdrive.study.records.results import ArmResult, DataResult, StudyResults
 from mjdrive.study.tables import arm_figures, rows, tables
 from mjdrive.study.tables.ratio_table import ratio_table
+from mjdrive.study.tables.summary_table import summary_table
 
 CHOICES = ChoiceStatistics(
     branches=48,
@@ -118,6 +119,29 @@ def test_the_papers_table_counts_red_lights_as_the_paper_does(
     assert mine["score [m] per 3,000 s"].startswith("980 [980, 980]"), "2,000 m and two red lights"
     assert mine["red lights per km"].startswith("1.00 [")
     assert mine["red lights run per light met"].startswith("0.10 [")
+    assert "plain" not in table, "ablations have a page of their own"
+
+
+def test_the_summary_has_what_happened_to_each_agent_beside_the_expert(
+    study: tuple[StudyConfig, StudyResults],
+) -> None:
+    config, found = study
+    first, second, plain = found.arms
+    hit = dataclasses.replace(second.drives[0], collisions=1, kerb_strikes=2, off_road_s=3.25)
+    choices = dataclasses.replace(CHOICES, taken=30, recall=30 / 48)
+    long = Curve((0.0, 600.0, 9_999.0, 12_000.0), (0.0, 0.5, 0.75, 1.0))
+    second = dataclasses.replace(
+        second, drives=(hit, second.drives[1]), choices=choices, recall=long
+    )
+    table = summary_table(config, dataclasses.replace(found, arms=(first, second, plain)))
+    mine, expert = cells(table, "DA-IBC, sampled"), cells(table, "PID expert, random walk")
+    assert mine["distance / the expert's"].startswith("0.50 [")
+    assert mine["red lights"] == "2 each"
+    assert (mine["collisions"], mine["kerbs"], mine["against the traffic"]) == ("0, 1", "0, 2", "0 each")  # fmt: skip
+    assert mine["off the road [s]"] == "0, 3.2"
+    assert (mine["ways of 48"], mine["ways in 10,000 s"]) == ("24, 30", "36")
+    assert mine["ways / the expert's"].startswith("1.12 [1.00, 1.25]")
+    assert (expert["ways of 48"], expert["ways in 10,000 s"]) == ("24", "-")
     assert "plain" not in table, "ablations have a page of their own"
 
 

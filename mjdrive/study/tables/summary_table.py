@@ -1,0 +1,75 @@
+"""The table that a reader begins with: counts as they are, one for each agent, beside ratios to the expert."""
+
+from collections.abc import Callable
+
+from mjdrive.config import StudyConfig
+from mjdrive.study.records.results import ArmResult, StudyResults
+from mjdrive.study.tables.arm_figures import recall_by, total
+from mjdrive.study.tables.ratio_table import LONG_SECONDS, distance_ratio, recall_ratio
+from mjdrive.study.tables.rows import (
+    NOTHING,
+    Row,
+    agent_cell,
+    arm_rows,
+    expert_row,
+    markdown,
+    number,
+    reference_rows,
+)
+
+
+def summary_table(config: StudyConfig, found: StudyResults) -> str:
+    """What happened to each agent, in the order of training seeds, and of the expert's walks.
+
+    Counts are small, so they stand there themselves and not as means. The ratios have bootstrap intervals over agents and
+    drives, as in `ratio_table`.
+
+    Args:
+        config: Settings of the study.
+        found: Its results.
+    """
+    expert = expert_row(found)
+    rows = [*(it for it in arm_rows(config, found) if not it.change), *reference_rows(found)]
+    shown: list[tuple[str, Callable[[Row], str]]] = [
+        ("distance / the expert's", lambda row: distance_ratio(row, expert)),
+        ("red lights", _counts(total(lambda it: it.red_lights))),
+        ("collisions", _counts(total(lambda it: it.collisions))),
+        ("kerbs", _counts(total(lambda it: it.kerb_strikes))),
+        ("against the traffic", _counts(total(lambda it: it.wrong_ways))),
+        ("off the road [s]", _counts(total(lambda it: it.off_road_s))),
+        (f"ways of {_num_ways(found)}", _counts(lambda it: it.choices.taken)),
+        ("ways / the expert's", lambda row: recall_ratio(row, expert)),
+        (f"ways in {LONG_SECONDS:,.0f} s", _long_ways),
+        (
+            "JS of turns [bit]",
+            lambda row: agent_cell(row, lambda it: it.choices.turn_divergence, digits=3),
+        ),
+    ]
+    head = ["", *(title for title, _ in shown)]
+    return markdown(head, [[row.label, *(show(row) for _, show in shown)] for row in rows])
+
+
+def _counts(figure: Callable[[ArmResult], float]) -> Callable[[Row], str]:
+    """A figure of each agent, once if it is the same."""
+
+    def shown(row: Row) -> str:
+        each = [_plain(figure(it)) for it in row.results]
+        return f"{each[0]} each" if len(set(each)) == 1 < len(each) else ", ".join(each)
+
+    return shown
+
+
+def _plain(value: float | int) -> str:
+    """A count, or a time without digits that say nothing."""
+    return f"{value:,.0f}" if value >= 10 or value == round(value) else f"{value:.1f}"
+
+
+def _num_ways(found: StudyResults) -> int:
+    return max(it.choices.branches for it in (*found.arms, *found.references))
+
+
+def _long_ways(row: Row) -> str:
+    """Of those agents that drove for so long."""
+    shares = [(recall_by(it, LONG_SECONDS), it.choices.branches) for it in row.results]
+    ways = [number(share * ways, digits=0) for share, ways in shares if share is not None]
+    return ", ".join(ways) or NOTHING
