@@ -34,7 +34,7 @@ def test_weights_are_never_a_pickle(tmp_path: Path) -> None:
 
 
 def test_the_landscape_is_that_which_was_chosen_from(simulation: Simulation) -> None:
-    mind = load_mind(entries.full_names()[0], Path())
+    mind = load_mind(entries.PREFIX + entries.DEFAULT, Path())
     assert isinstance(mind, PilotMind)
     mind.begin(simulation, 0)
     learner = mind._pilot.learner
