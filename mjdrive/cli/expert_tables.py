@@ -84,10 +84,7 @@ def laps_table(drives: Sequence[Drive]) -> str:
 def times_table(drives: Sequence[Drive]) -> str:
     """How long experts took to decide, standing at lights included, a line an expert and town."""
     rows = []
-    for expert, town, group in _groups(drives):
-        arrived = [it for it in group if it.steps]
-        if not arrived:
-            continue
+    for expert, town, arrived in _groups([it for it in drives if it.steps]):
         rows.append(
             (
                 expert,
@@ -129,10 +126,7 @@ def times_table(drives: Sequence[Drive]) -> str:
 def comfort_table(drives: Sequence[Drive]) -> str:
     """Lane error and smoothness, a line an expert and town, over all of its routes and seeds."""
     rows = []
-    for expert, town, group in _groups(drives):
-        arrived = [it for it in group if it.steps]
-        if not arrived:
-            continue
+    for expert, town, arrived in _groups([it for it in drives if it.steps]):
         rows.append(
             (
                 expert,
