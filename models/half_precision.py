@@ -18,21 +18,29 @@ KEPT = (expert_actions.STORED[1],)
 """Tensors that stay float32: rare actions have densities that float16 would make zero, and a search starts by their inverse."""
 
 
+WORTH_IT = 4096
+"""Numbers that a tensor must have to be rounded: those of fewer are a hundredth of a file, and the first layer of the speed, one of them, causes most of what rounding changes [-]."""
+
+
 def halved(tensors: Mapping[str, Tensor]) -> dict[str, Tensor] | None:
     """Round tensors from float32 to float16.
 
     Args:
-        tensors: Weights by name; those of other types, and those of `KEPT`, stay as they are.
+        tensors: Weights by name; those of other types, small ones, and those of `KEPT`, stay as they are.
 
     Returns:
         The rounded ones; None if a number is too large for float16.
     """
     rounded = {
-        name: tensor.half() if tensor.dtype == torch.float32 and name not in KEPT else tensor
+        name: tensor.half() if _is_rounded(name, tensor) else tensor
         for name, tensor in tensors.items()
     }
     overflows = any(not tensor.isfinite().all() for tensor in rounded.values())
     return None if overflows else rounded
+
+
+def _is_rounded(name: str, tensor: Tensor) -> bool:
+    return tensor.dtype == torch.float32 and tensor.numel() >= WORTH_IT and name not in KEPT
 
 
 def widened(tensors: Mapping[str, Tensor]) -> dict[str, Tensor]:

@@ -6,12 +6,12 @@ import torch
 from models import checkpoint
 from models.bc_beta import BcBetaLearner
 from models.checkpoint import RunState
-from models.half_precision import halved, variations, widened
+from models.half_precision import WORTH_IT, halved, variations, widened
 from models.learners import build_learner
 
 
 def test_rounding_moves_a_weight_by_a_2048th_of_it_at_most():
-    weights = {"a": torch.randn(1000, generator=torch.Generator().manual_seed(0)) + 3.0}
+    weights = {"a": torch.randn(WORTH_IT, generator=torch.Generator().manual_seed(0)) + 3.0}
     back = widened(halved(weights))["a"]
     assert back.dtype == torch.float32
     assert ((back - weights["a"]) / weights["a"]).abs().max() <= 2**-11
@@ -19,14 +19,24 @@ def test_rounding_moves_a_weight_by_a_2048th_of_it_at_most():
 
 
 def test_numbers_that_float16_has_survive_and_whole_numbers_are_left_alone():
-    tensors = {"a": torch.tensor([0.5, -2.0, 65504.0]), "b": torch.tensor([2**40])}
+    tensors = {
+        "a": torch.tensor([0.5, -2.0, 65504.0, 0.0]).repeat(WORTH_IT // 4),
+        "b": torch.tensor([2**40]),
+    }
     halves = halved(tensors)
     assert (halves["a"].dtype, halves["b"].dtype) == (torch.float16, torch.int64)
     assert all(torch.equal(widened(halves)[name], tensors[name]) for name in tensors)
 
 
 def test_what_float16_cannot_hold_is_not_halved():
-    assert halved({"a": torch.tensor([1e6])}) is None
+    assert halved({"a": torch.full((WORTH_IT,), 1e6)}) is None
+
+
+def test_small_tensors_stay_as_they_are():
+    small = torch.full((WORTH_IT - 1,), 0.1)
+    kept = halved({"bias": small})
+    assert kept is not None
+    assert torch.equal(kept["bias"], small)
 
 
 @pytest.mark.parametrize("method", ["bc-beta", "da-ibc"])
@@ -37,6 +47,7 @@ def test_a_checkpoint_in_float16_is_read_as_the_same_numbers_in_float32(
     learner.prepare(torch.rand(5, 2), torch.rand(5))
     checkpoint.save(tmp_path, learner, RunState(method, seed=0, epoch=1, epochs=1))
     halves = halved(learner.state_dict())
+    assert {tensor.dtype for tensor in halves.values()} == {torch.float16, torch.float32}
     checkpoint.write_tensors(tmp_path / checkpoint.MODEL, halves, epoch=1)
     loaded = checkpoint.load(tmp_path).state_dict()
     assert {tensor.dtype for tensor in loaded.values()} == {torch.float32}

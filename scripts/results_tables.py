@@ -1,0 +1,45 @@
+"""Write the tables of docs/results.md and README.md from the results of the studies that are kept in docs/results.
+
+Example: python scripts/results_tables.py
+"""
+
+from pathlib import Path
+
+from mjdrive.config import read_json
+from mjdrive.study.records.results import RESULTS, STUDY, StudyRecord, StudyResults
+from mjdrive.study.tables.ratio_table import ratio_table
+from mjdrive.study.tables.summary_table import summary_table
+
+ROOT = Path(__file__).resolve().parents[1]
+STUDIES = {"seeds": ROOT / "docs" / "results", "methods": ROOT / "docs" / "results" / "methods"}
+"""Where each study is kept, by how its tables are called."""
+
+PAGES = (ROOT / "docs" / "results.md", ROOT / "README.md")
+
+
+def tables() -> dict[str, str]:
+    """Every table in Markdown, by the mark that it stands at."""
+    found = {}
+    for name, folder in STUDIES.items():
+        config = read_json(StudyRecord, folder / STUDY).settings
+        results = read_json(StudyResults, folder / RESULTS)
+        found[f"{name}, in short"] = summary_table(config, results)
+        found[f"{name}, beside the bars"] = ratio_table(config, results)
+    return found
+
+
+def with_tables(text: str) -> str:
+    """Put the tables between their marks in a page; it need not have all."""
+    for mark, table in tables().items():
+        begin, end = f"<!-- {mark}: begin -->\n", f"<!-- {mark}: end -->"
+        if begin not in text:
+            continue
+        head, _, rest = text.partition(begin)
+        _, _, tail = rest.partition(end)
+        text = f"{head}{begin}\n{table}\n{end}{tail}"
+    return text
+
+
+if __name__ == "__main__":
+    for page in PAGES:
+        page.write_text(with_tables(page.read_text()))

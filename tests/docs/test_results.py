@@ -1,0 +1,64 @@
+"""docs/results.md and README.md say of the studies what was measured."""
+
+import importlib.util
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from mjdrive.config import read_json
+from mjdrive.study.records.results import RESULTS, STUDY, StudyRecord, StudyResults
+from mjdrive.town import library
+from mjdrive.vehicle import cars
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="module")
+def script() -> ModuleType:
+    spec = importlib.util.spec_from_file_location(
+        "results_tables_script", ROOT / "scripts/results_tables.py"
+    )
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_tables_are_those_that_were_measured(script: ModuleType) -> None:
+    pages = [page.read_text() for page in script.PAGES]
+    for page in pages:
+        assert script.with_tables(page) == page, "run: python scripts/results_tables.py"
+    for name in script.STUDIES:
+        assert f"<!-- {name}, in short: begin -->" in pages[0]
+    assert "<!-- seeds, in short: begin -->" in pages[1]
+
+
+def test_a_wrong_figure_in_a_page_is_seen(script: ModuleType) -> None:
+    page = script.PAGES[0].read_text()
+    assert "| 0 each |" in page
+    assert script.with_tables(page.replace("| 0 each |", "| 1 each |")) == page
+
+
+@pytest.mark.parametrize("name", ["seeds", "methods"])
+def test_studies_were_driven_in_the_towns_and_the_car_that_there_are(
+    name: str, script: ModuleType
+) -> None:
+    record = read_json(StudyRecord, script.STUDIES[name] / STUDY)
+    assert record.towns == {town: library.load(town).digest for town in record.towns}
+    assert record.car == cars.load().digest
+    assert record.settings.town == "town02"
+
+
+def test_an_agent_that_is_in_both_studies_drove_the_same_in_both(script: ModuleType) -> None:
+    first, second = (
+        {(it.arm, it.seed): it for it in read_json(StudyResults, folder / RESULTS).arms}
+        for folder in script.STUDIES.values()
+    )
+    shared = first.keys() & second.keys()
+    assert len(shared) >= 6
+    for key in shared:
+        assert first[key].digest == second[key].digest
+        assert first[key].drives == second[key].drives
+        assert first[key].likelihood == second[key].likelihood
