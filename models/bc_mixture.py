@@ -28,16 +28,16 @@ from models.threads import one_thread
 LEAST_CONCENTRATION = 5.0
 """Smallest sum of both concentrations of a component, a standard deviation of at most 0.41 in [-1, 1] [-].
 
-What is broader is for several components to cover. One that may become uniform has no side to which its peak could move, so
-it stays so: drives of such a mixture coasted through red lights (docs/notes.md).
+What is broader is for several components to cover. With concentrations that were softplus of what the network said, one of them
+became uniform and stayed so, and drives coasted through red lights (docs/notes.md).
 """
 
 
 class BcMixtureLearner(Learner):
     """Explicit and multimodal: p(y | x) is a weighted sum of products of two Beta densities.
 
-    The network tells of each where its peak is and how sharp it is, not the concentrations: those of a component that learns
-    nothing for a while would end where softplus is flat, and come back from there no more.
+    The network tells of each where its peak is (with `beta_offset` 0 its mean) and how sharp it is, not the concentrations, so
+    that there is a broadest one (`LEAST_CONCENTRATION`) and a slope that leads away from it.
 
     Reference:
         Bishop, Mixture Density Networks, 1994.

@@ -19,7 +19,7 @@ KEPT = (expert_actions.STORED[1],)
 
 
 WORTH_IT = 4096
-"""Numbers that a tensor must have to be rounded: those of fewer are a hundredth of a file, and the first layer of the speed, one of them, causes most of what rounding changes [-]."""
+"""Numbers that a tensor must have to be rounded [-]; smaller ones save next to nothing and change most (docs/zoo.md)."""
 
 
 def halved(tensors: Mapping[str, Tensor]) -> dict[str, Tensor] | None:

@@ -41,15 +41,17 @@ def _reason(error: BaseException, kind: Any) -> str:
     if get_origin(kind) is Literal:
         value = str(error).partition(" not in literal")[0]
         return f"there is no '{value}'; expected {', '.join(map(str, get_args(kind)))}"
+    if dataclasses.is_dataclass(kind) and isinstance(error, TypeError | AttributeError):
+        return "it is no JSON object; expected one"
     if isinstance(error, SettingError | TypeError):
         return str(error)
     return format_exception(error, kind)
 
 
 def _placed(reason: str) -> str:
-    """A sentence that begins with the place of what it is about, which cattrs puts at its end."""
+    """A reason that begins with the place of what it is about, which cattrs puts at its end."""
     words, _, place = reason.rpartition(" @ ")
-    return f"in {place}, {words.removesuffix('.')}."
+    return f"in {place}, {words.removesuffix('.')}"
 
 
 _CONVERTER = _strict_converter()
@@ -76,5 +78,5 @@ def from_json(text: str) -> LearnerConfig:
         return _CONVERTER.structure(values, LearnerConfig)
     except cattrs.BaseValidationError as error:
         found = cattrs.transform_error(error, path="settings", format_exception=_reason)
-        reasons = " ".join(_placed(reason) for reason in found)
-        raise SettingError(f"Cannot read settings: {reasons}") from error
+        reasons = "; ".join(_placed(reason) for reason in found)
+        raise SettingError(f"Cannot read settings: {reasons}.") from error

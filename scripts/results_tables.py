@@ -1,4 +1,4 @@
-"""Write the tables of docs/results.md and README.md from the results of the studies that are kept in docs/results.
+"""Write the tables of docs/results.md and README.md that have marks from the results of the studies in docs/results.
 
 Example: python scripts/results_tables.py
 """
@@ -24,17 +24,24 @@ def tables() -> dict[str, str]:
         config = read_json(StudyRecord, folder / STUDY).settings
         results = read_json(StudyResults, folder / RESULTS)
         found[f"{name}, in short"] = summary_table(config, results)
-        found[f"{name}, beside the bars"] = ratio_table(config, results)
+        if name == "seeds":
+            found[f"{name}, beside the bars"] = ratio_table(config, results)
     return found
 
 
 def with_tables(text: str) -> str:
-    """Put the tables between their marks in a page; it need not have all."""
+    """Put the tables between their marks in a page; it need not have all.
+
+    Raises:
+        ValueError: If a mark begins and does not end.
+    """
     for mark, table in tables().items():
         begin, end = f"<!-- {mark}: begin -->\n", f"<!-- {mark}: end -->"
         if begin not in text:
             continue
         head, _, rest = text.partition(begin)
+        if end not in rest:
+            raise ValueError(f"A page has '{begin.strip()}' and no '{end}' after it; put it back.")
         _, _, tail = rest.partition(end)
         text = f"{head}{begin}\n{table}\n{end}{tail}"
     return text
@@ -42,4 +49,4 @@ def with_tables(text: str) -> str:
 
 if __name__ == "__main__":
     for page in PAGES:
-        page.write_text(with_tables(page.read_text()))
+        page.write_text(with_tables(page.read_text("utf-8")), "utf-8")

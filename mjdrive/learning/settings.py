@@ -6,7 +6,7 @@ from typing import Any
 
 from mjdrive.errors import ConfigError, UnknownNameError
 from models import presets, serialization
-from models.config import LearnerConfig
+from models.config import LearnerConfig, is_idle
 from models.errors import SettingError
 
 ACTING = (
@@ -80,17 +80,23 @@ def acting_changed(config: LearnerConfig, assignments: Iterable[str]) -> Learner
         assignments: Changes, each as "sampler.kind=grid".
 
     Raises:
-        ConfigError: If a setting decides what is learnt, or a value is not one of those expected.
+        ConfigError: If a setting decides what is learnt or has no effect on the policy, or a value is not one of those expected.
         UnknownNameError: If there is no such setting.
     """
     assignments = tuple(assignments)
+    after = changed(config, assignments)
     learnt = [it for it in assignments if not it.startswith(ACTING)]
     if learnt:
         raise ConfigError(
             f"'{learnt[0]}' decides what is learnt, not how a trained policy acts. Expected settings that begin with "
             f"{', '.join(ACTING)}; train another policy with it."
         )
-    return changed(config, assignments)
+    idle = [it for it in assignments if is_idle(it.partition("=")[0], after)]
+    if idle:
+        raise ConfigError(
+            f"'{idle[0]}' has no effect on a policy of {config.method} that acts as this one does. Leave it out, or change how it acts as well."
+        )
+    return after
 
 
 def acting_settings(config: LearnerConfig, *, preset: str) -> LearnerConfig:

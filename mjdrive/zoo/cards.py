@@ -15,7 +15,7 @@ class Weights:
     """What a policy consists of.
 
     Attributes:
-        number_format: "float16" or "float32".
+        number_format: "float16", small tensors aside, or "float32".
         sha256: Digest of `model.safetensors`, hexadecimal.
         trained_sha256: Digest of that file as training left it, in float32, hexadecimal.
         largest_variation: Largest total variation between what both would do at one observation [-].

@@ -80,8 +80,20 @@ def test_presets_survive_json(name, method):
     ("text", "reason"),
     [
         ("{", "Expected a JSON object"),
-        ('{"method": "da-ibc", "lerning_rate": 1}', "lerning_rate"),
-        ('{"method": "gail"}', "gail"),
+        (
+            '{"method": "da-ibc", "lerning_rate": 1}',
+            r"in settings, extra fields found \(lerning_rate\); expected method, .*optimiser\.$",
+        ),
+        ('{"method": "gail"}', "in settings.method, there is no 'gail'; expected bc-beta, .*flow"),
+        ('{"method": "ibc", "commitment": 3}', "in settings.commitment, it is no JSON object"),
+        (
+            '{"method": "ibc", "commitment": {"hold": -1, "split": "x"}}',
+            "in settings.commitment.split, 'x' is no float",
+        ),
+        (
+            '{"method": "gail", "commitment": {"hold": -1}}',
+            r"in settings.method, there .*; in settings.commitment, hold is -1; expected .*number\.$",
+        ),
         ('{"method": "ibc", "negatives": {"count": "many"}}', "'many' is no int"),
         ('{"method": "ibc", "negatives": {"count": 2.5}}', "2.5 is no int"),
         ('{"method": "ibc", "negatives": {"clip": 1}}', "1 is no bool"),

@@ -75,7 +75,7 @@ def test_variation_is_that_of_the_closed_form(small_config, batch):
 
 
 def test_densities_of_rare_actions_do_not_vanish() -> None:
-    density = torch.tensor([1.0, 1.2e-8])
+    density = torch.tensor([1.0, 1.2e-8]).repeat(WORTH_IT // 2)
     kept = halved({"experts.density": density})
     assert kept is not None
     assert torch.equal(kept["experts.density"], density)

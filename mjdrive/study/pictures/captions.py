@@ -58,7 +58,7 @@ CAPTIONS = {
 TABLES = {
     "summary.md": (
         "In short",
-        "What happened in all drives of a policy, a number for each agent (for each walk of the expert); ratios with 95 % "
+        "What happened in all drives of an agent together, a number for each (for each walk of the expert); ratios with 95 % "
         "bootstrap intervals over training seeds and drives.",
     ),
     "ratios.md": (

@@ -49,7 +49,7 @@ class Row:
 
 
 def reference_rows(found: StudyResults) -> tuple[Row, ...]:
-    """The references, which every table begins with."""
+    """The references, which are in every table."""
     return tuple(
         Row(REFERENCE_LABELS[name], tuple(it for it in found.references if it.arm == name))
         for name in dict.fromkeys(it.arm for it in found.references)

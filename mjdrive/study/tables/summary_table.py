@@ -61,7 +61,8 @@ def _counts(figure: Callable[[ArmResult], float]) -> Callable[[Row], str]:
 
 def _plain(value: float | int) -> str:
     """A count, or a time without digits that say nothing."""
-    return f"{value:,.0f}" if value >= 10 or value == round(value) else f"{value:.1f}"
+    tenths = round(value, 1)
+    return f"{tenths:,.0f}" if tenths >= 10 or tenths == round(tenths) else f"{tenths:.1f}"
 
 
 def _num_ways(found: StudyResults) -> int:
@@ -69,7 +70,10 @@ def _num_ways(found: StudyResults) -> int:
 
 
 def _long_ways(row: Row) -> str:
-    """Of those agents that drove for so long."""
+    """Of those agents that drove for so long, and how many those are unless all did."""
     shares = [(recall_by(it, LONG_SECONDS), it.choices.branches) for it in row.results]
     ways = [number(share * ways, digits=0) for share, ways in shares if share is not None]
-    return ", ".join(ways) or NOTHING
+    if not ways:
+        return NOTHING
+    few = f" ({len(ways)} of {len(row.results)})" if len(ways) < len(row.results) else ""
+    return ", ".join(ways) + few

@@ -24,13 +24,13 @@ def run(*words: str) -> Result:
 
 
 def test_set_changes_how_it_acts_and_the_files_say_so(workplace: Path) -> None:
-    changes = ("--set", "commitment.hold=0", "--set", "sampler.grid.choice=argmin")
+    changes = ("--set", "commitment.hold=0", "--set", "sampler.grid.temperature=0.5")
     done = run(*changes, "--out", "changed")
     assert done.exit_code == 0, done.stderr
     episode = store.read(workplace / "changed/episode.hdf5")
     policy = json.loads(episode.metadata["settings"])["policy"]
     assert policy["commitment"]["hold"] == 0
-    assert policy["sampler"]["grid"]["choice"] == "argmin"
+    assert policy["sampler"]["grid"]["temperature"] == 0.5
 
 
 def test_set_changes_a_preset(tmp_path: Path) -> None:
@@ -46,6 +46,9 @@ def test_set_changes_a_preset(tmp_path: Path) -> None:
     [
         ("optimiser.epochs=5", "'optimiser.epochs=5' decides what is learnt"),
         ("commitment.hold", "Cannot set 'commitment.hold'"),
+        ("comitment.hold=3", "Did you mean 'commitment.hold'"),
+        ("flow.steps=3", "'flow.steps=3' has no effect on a policy of da-ibc"),
+        ("sampler.dfo.iterations=3", "'sampler.dfo.iterations=3' has no effect"),
         ("commitment.hodl=3", "Did you mean 'commitment.hold'"),
         ("commitment.hold=-1", "in settings.commitment, hold is -1; expected zero"),
         ("sampler.kind=gird", "in settings.sampler.kind, there is no 'gird'; expected dfo, grid"),

@@ -127,19 +127,26 @@ def test_the_summary_has_what_happened_to_each_agent_beside_the_expert(
 ) -> None:
     config, found = study
     first, second, plain = found.arms
-    hit = dataclasses.replace(second.drives[0], collisions=1, kerb_strikes=2, off_road_s=3.25)
+    hit = dataclasses.replace(second.drives[0], collisions=1, kerb_strikes=2, off_road_s=0.1)
     choices = dataclasses.replace(CHOICES, taken=30, recall=30 / 48)
     long = Curve((0.0, 600.0, 9_999.0, 12_000.0), (0.0, 0.5, 0.75, 1.0))
     second = dataclasses.replace(
         second, drives=(hit, second.drives[1]), choices=choices, recall=long
     )
+    tenths = tuple(dataclasses.replace(first.drives[0], off_road_s=0.1) for _ in range(10))
+    third = dataclasses.replace(first, seed=2, drives=tenths)
+    assert sum(it.off_road_s for it in tenths) != 1.0
+    shown = cells(
+        summary_table(config, dataclasses.replace(found, arms=(third,))), "DA-IBC, sampled"
+    )
+    assert shown["off the road [s]"] == "1"
     table = summary_table(config, dataclasses.replace(found, arms=(first, second, plain)))
     mine, expert = cells(table, "DA-IBC, sampled"), cells(table, "PID expert, random walk")
     assert mine["distance / the expert's"].startswith("0.50 [")
     assert mine["red lights"] == "2 each"
     assert (mine["collisions"], mine["kerbs"], mine["against the traffic"]) == ("0, 1", "0, 2", "0 each")  # fmt: skip
-    assert mine["off the road [s]"] == "0, 3.2"
-    assert (mine["ways of 48"], mine["ways in 10,000 s"]) == ("24, 30", "36")
+    assert mine["off the road [s]"] == "0, 0.1"
+    assert (mine["ways of 48"], mine["ways in 10,000 s"]) == ("24, 30", "36 (1 of 2)")
     assert mine["ways / the expert's"].startswith("1.12 [1.00, 1.25]")
     assert (expert["ways of 48"], expert["ways in 10,000 s"]) == ("24", "-")
     assert "plain" not in table, "ablations have a page of their own"
