@@ -46,7 +46,7 @@ def test_set_changes_a_preset(tmp_path: Path) -> None:
     [
         ("optimiser.epochs=5", "'optimiser.epochs=5' decides what is learnt"),
         ("commitment.hold", "Cannot set 'commitment.hold'"),
-        ("comitment.hold=3", "Did you mean 'commitment.hold'"),
+        ("commitments.hold=3", "Did you mean 'commitment.hold'"),
         ("flow.steps=3", "'flow.steps=3' has no effect on a policy of da-ibc"),
         ("sampler.dfo.iterations=3", "'sampler.dfo.iterations=3' has no effect"),
         ("commitment.hodl=3", "Did you mean 'commitment.hold'"),
