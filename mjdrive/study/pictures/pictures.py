@@ -144,7 +144,8 @@ class _Drawing:
         yield self._picture("ablation")
 
     def _draw_paths(self, paths: list[DrivenPath] | tuple[DrivenPath, ...], name: str, *, columns: int) -> None:  # fmt: skip
-        pairs = [(self._looks[it.arm], it) for it in paths]
+        looks = self._looks
+        pairs = [(replace(looks[it.arm], label=self._label(it.arm, it.seed)), it) for it in paths]
         figures_paths.draw_paths(pairs, self._town, self._path(name), columns=columns)
 
     def _draw_landscapes(self, records: list[LandscapeRecord], name: str) -> None:
@@ -166,9 +167,10 @@ class _Drawing:
         figures_landscape.draw_landscapes(titles, views, rows, self._path(name))
 
     def _label(self, arm: str, seed: int) -> str:
-        """What an agent is called; the seed is said where several are shown."""
+        """What an agent or a reference is called; the seed is said where several agents of an arm are shown."""
         label = self._looks[arm].label
-        return label if len(self._config.detail_seeds) == 1 else f"{label}, seed {seed}"
+        is_alone = len(self._config.detail_seeds) == 1 or arm in self._config.references
+        return label if is_alone else f"{label}, seed {seed}"
 
     def _path(self, name: str) -> Path:
         return self._folder / PICTURES / f"{name}.png"

@@ -9,8 +9,13 @@ import numpy as np
 import pytest
 
 from mjdrive.config import read_json, write_json
+from mjdrive.datatypes import Town
 from mjdrive.errors import DataError
 from mjdrive.recording import mp4
+from mjdrive.study.pictures import figures_paths
+from mjdrive.study.pictures.figure_looks import looks
+from mjdrive.study.pictures.pictures import draw_pictures
+from mjdrive.study.records.reading import read_study
 from mjdrive.study.records.results import STUDY, StudyRecord
 from mjdrive.study.report import report
 from mjdrive.study.tables.report_tables import Table, read_markdown
@@ -135,6 +140,42 @@ def test_a_map_of_another_town_is_not_drawn(folder: Path, tmp_path: Path) -> Non
     write_json(other, copy / STUDY)
     with pytest.raises(DataError, match="driven in another town02"):
         report.write_report(copy)
+
+
+@pytest.mark.parametrize("seeds", [(3,), (3, 4)])
+def test_long_drives_of_several_agents_say_whose_they_are(
+    seeds: tuple[int, ...],
+    folder: Path,
+    tmp_path: Path,
+    town02: Town,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    study = read_study(folder)
+    settings = dataclasses.replace(study.record.settings, seeds=seeds, detail_seeds=seeds)
+    record = dataclasses.replace(study.record, settings=settings)
+    paths = (
+        *(it for it in study.paths if it.arm == "expert"),
+        *(
+            dataclasses.replace(it, seed=seed)
+            for it in study.paths
+            if it.arm != "expert"
+            for seed in seeds
+        ),
+    )
+    drawn: set[str] = set()
+    monkeypatch.setattr(
+        figures_paths,
+        "draw_paths",
+        lambda pairs, *_, **__: drawn.update(it.label for it, _ in pairs),
+    )
+    shutil.copytree(folder, tmp_path / "copy")
+    several = dataclasses.replace(study, record=record, paths=paths)
+    list(draw_pictures(several, town02, tmp_path / "copy"))
+    plain = {looks(settings)[it.arm].label for it in paths}
+    agents = {looks(settings)[it.arm].label for it in paths if it.arm not in settings.references}
+    named = {f"{label}, seed {seed}" for label in agents for seed in seeds}
+    assert agents
+    assert drawn == (plain if len(seeds) == 1 else (plain - agents) | named)
 
 
 def test_a_table_is_read_as_it_was_written() -> None:
