@@ -1,13 +1,19 @@
-"""Towns and simulations that many tests share; a simulation is reset by whoever uses it."""
+"""Towns and simulations that many tests share, and scripts as modules; a simulation is reset by whoever uses it."""
 
+import importlib.util
 import signal
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from types import ModuleType
 
 import pytest
 
 from mjdrive.datatypes import Town
 from mjdrive.simulation.simulation import Simulation
 from mjdrive.town import library
+
+SCRIPTS = Path(__file__).resolve().parents[1] / "scripts"
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -31,3 +37,23 @@ def town02() -> Town:
 @pytest.fixture(scope="session")
 def simulation(town02: Town) -> Simulation:
     return Simulation(town02)
+
+
+@pytest.fixture
+def load_script() -> Iterator[Callable[[str], ModuleType]]:
+    """Loads a script by name; as `__main__`, it can be imported nowhere else."""
+    loaded = []
+
+    def load(name: str) -> ModuleType:
+        spec = importlib.util.spec_from_file_location(f"script_{name}", SCRIPTS / f"{name}.py")
+        assert spec is not None
+        assert spec.loader is not None
+        module = importlib.util.module_from_spec(spec)
+        sys.modules[spec.name] = module
+        loaded.append(spec.name)
+        spec.loader.exec_module(module)
+        return module
+
+    yield load
+    for name in loaded:
+        del sys.modules[name]

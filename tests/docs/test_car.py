@@ -1,8 +1,8 @@
 """docs/car.md says what the car is and what was measured."""
 
-import importlib.util
 import json
 import re
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -24,14 +24,9 @@ def cells(row: str) -> str:
     return found[0]
 
 
-@pytest.fixture(scope="module")
-def card_tables() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("car_card", ROOT / "scripts/car_card.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+@pytest.fixture
+def card_tables(load_script: Callable[[str], ModuleType]) -> ModuleType:
+    return load_script("car_card")
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,6 @@
 """docs/experts.md says of the experts what was measured."""
 
-import importlib.util
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -22,16 +22,9 @@ ROUTES = {
 }
 
 
-@pytest.fixture(scope="module")
-def script() -> ModuleType:
-    spec = importlib.util.spec_from_file_location(
-        "expert_tables_script", ROOT / "scripts/expert_tables.py"
-    )
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+@pytest.fixture
+def script(load_script: Callable[[str], ModuleType]) -> ModuleType:
+    return load_script("expert_tables")
 
 
 def test_tables_are_those_that_were_measured(script: ModuleType) -> None:

@@ -1,6 +1,6 @@
 """docs/results.md and README.md say of the studies what was measured."""
 
-import importlib.util
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -14,16 +14,9 @@ from mjdrive.vehicle import cars
 ROOT = Path(__file__).resolve().parents[2]
 
 
-@pytest.fixture(scope="module")
-def script() -> ModuleType:
-    spec = importlib.util.spec_from_file_location(
-        "results_tables_script", ROOT / "scripts/results_tables.py"
-    )
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+@pytest.fixture
+def script(load_script: Callable[[str], ModuleType]) -> ModuleType:
+    return load_script("results_tables")
 
 
 def test_tables_are_those_that_were_measured(script: ModuleType) -> None:
