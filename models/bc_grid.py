@@ -5,11 +5,12 @@ from jaxtyping import Float, UInt8
 from torch import Tensor, nn
 from torch.nn import functional as F  # noqa: N812
 
+from models.cells import cell_areas, nearest_points, spread_over_cells
 from models.config import LearnerConfig
 from models.encoder import HIDDEN_SIZE, Encoder, draw_dropout, drop_previous_action, policy_head
-from models.interfaces import ACTION_BOUND, Batch, Chance, Learner, weighted_mean
+from models.interfaces import Batch, Chance, Learner, weighted_mean
 from models.samplers.commitment import Commitment
-from models.samplers.grid import action_grid, cell_areas, cell_widths, draw_points
+from models.samplers.grid import action_grid, draw_points
 from models.threads import one_thread
 
 
@@ -47,8 +48,8 @@ class BcGridLearner(Learner):
         log_probabilities = self.log_probabilities(batch.bev, state).unflatten(
             1, (settings.points, settings.points)
         )
-        targets = smoothed_labels(
-            batch.actions, points=settings.points, smoothing=settings.smoothing
+        targets = spread_over_cells(
+            batch.actions, points=settings.points, deviation=settings.smoothing
         )
         # No matrix product, which would be autocast.
         shares = targets[:, 0, :, None] * targets[:, 1, None, :]  # (B, P, P)
@@ -92,29 +93,3 @@ class BcGridLearner(Learner):
         nearest = nearest_points(actions, points=points)
         cells = (nearest[..., 0] * points + nearest[..., 1]).expand(len(bev), -1)  # (B, N)
         return (log_probabilities - areas.log()).gather(1, cells)
-
-
-def nearest_points(actions: Float[Tensor, "*B 2"], *, points: int) -> Tensor:
-    """Index of the nearest point along each axis, int64 of the shape of the actions [-]."""
-    share = (actions + ACTION_BOUND) / (2 * ACTION_BOUND)
-    return (share * (points - 1)).round().long().clamp(0, points - 1)
-
-
-def smoothed_labels(
-    actions: Float[Tensor, "B 2"], *, points: int, smoothing: float
-) -> Float[Tensor, "B 2 P"]:
-    """Spread each label over the points of each axis.
-
-    Args:
-        actions: Labels [-].
-        points: Points along an axis.
-        smoothing: Standard deviation of the Gaussian, which is cut off at the ends; 0 for none [-].
-
-    Returns:
-        Probability of the cell of each point; the product over both axes is that of the pair [-].
-    """
-    if smoothing == 0:
-        return F.one_hot(nearest_points(actions, points=points), points).to(actions.dtype)
-    axis = torch.linspace(-ACTION_BOUND, ACTION_BOUND, points, device=actions.device)
-    exponents = -0.5 * ((axis - actions[..., None]) / smoothing).square()
-    return torch.softmax(exponents + cell_widths(points, device=actions.device).log(), dim=-1)

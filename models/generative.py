@@ -11,15 +11,19 @@ from jaxtyping import Float, UInt8
 from torch import Tensor
 
 from models import ode_density
+from models.cells import spread_over_cells
 from models.config import LearnerConfig
 from models.denoiser import Denoiser
 from models.encoder import Encoder, draw_dropout, drop_previous_action
 from models.interfaces import ACTION_BOUND, ACTION_SIZE, Batch, Chance, Learner, weighted_mean
 from models.samplers.commitment import Commitment
+from models.samplers.grid import draw_points
 from models.threads import for_each, one_thread
 
 # Hidden layers of this many actions, with their derivatives, are 3 MB.
 ROWS_AT_A_TIME = 1024
+# Along each axis of the grid that a density is estimated on, where chance lasts: nearer than the noise floor.
+POINTS = 65
 # Beyond this ratio of noise to action one step is enough.
 LARGEST_RATIO = 30.0
 
@@ -100,14 +104,18 @@ class GenerativeLearner(Learner):
         generator: torch.Generator,
         commitment: Commitment | None = None,
     ) -> Float[Tensor, "B 2"]:
-        """Encode once, then turn one noise an observation into an action."""
-        del commitment
+        """Encode once, then turn noise into an action; where chance lasts, into many, whose density is drawn from."""
+        num_draws = 1 if commitment is None else self.config.denoiser.candidates
         with one_thread():
             observed = self.denoiser.observe(self.encoder(bev, state))
-            shape = (len(observed), 1, ACTION_SIZE)
+            shape = (len(observed), num_draws, ACTION_SIZE)
             noise = torch.randn(shape, generator=generator, device=observed.device)
-            actions = self.generate(observed, noise, generator=generator).squeeze(1)
-        return actions.clamp(-ACTION_BOUND, ACTION_BOUND)
+            actions = self.generate(observed, noise, generator=generator)
+            actions = actions.clamp(-ACTION_BOUND, ACTION_BOUND)
+            if commitment is None:
+                return actions.squeeze(1)
+            log_masses = _log_masses(actions, deviation=self.config.denoiser.noise_floor)
+        return draw_points(log_masses, generator=generator, commitment=commitment)
 
     @torch.no_grad()
     def log_density(
@@ -147,3 +155,12 @@ class GenerativeLearner(Learner):
 
             for_each(pieces, lambda: tell, num_threads=num_threads)
         return found + ACTION_SIZE * math.log(scale)
+
+
+def _log_masses(actions: Float[Tensor, "B N 2"], *, deviation: float) -> Float[Tensor, "B P"]:
+    """Log of how much of the actions, each spread by a Gaussian, lies in the cell of each point of a grid [nats]."""
+    accelerations, steerings = spread_over_cells(
+        actions, points=POINTS, deviation=deviation
+    ).unbind(dim=2)  # (B, N, POINTS) each
+    masses = accelerations.transpose(1, 2) @ steerings / actions.shape[1]
+    return masses.flatten(1).clamp_min(torch.finfo(masses.dtype).tiny).log()

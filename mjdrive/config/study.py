@@ -63,6 +63,7 @@ class Arm:
         acting: Changes to the settings that the variant was trained with, each as "sampler.kind=grid".
         change: What sets an ablation apart, in words; empty for an arm of the study itself.
         all_seeds: Whether the agents of all training seeds act so, or those of `StudyConfig.detail_seeds` alone.
+        is_long: Whether it makes the long drive though it is not the main arm, which always does.
     """
 
     name: str
@@ -71,6 +72,7 @@ class Arm:
     acting: tuple[str, ...] = ()
     change: str = ""
     all_seeds: bool = True
+    is_long: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +94,7 @@ class StudyConfig:
         seed: Decides demonstrations, starts and lights of all drives, and what is drawn [-].
         episodes: Drives of each agent in each of its ways to act [-].
         steps: Control steps of each of them [-].
-        long_steps: Control steps of one more drive of each main arm, for its path and what it sees in time; 0 for none [-].
+        long_steps: Control steps of one more drive of each main arm and each `Arm.is_long`, for its path and what it sees in time; 0 for none [-].
         detail_seeds: Training seeds, some of `seeds`, whose agents make it, and whose landscapes and turns are kept [-].
         progress_every: Epochs between two checkpoints that drive, for the progress of training; 0 for none [-].
         progress_episodes: Drives of each such checkpoint [-].

@@ -21,6 +21,7 @@ ACTING = (
     "flow.",
     "denoiser.noise_floor",
     "denoiser.density_steps",
+    "denoiser.candidates",
 )
 """How the names of settings begin that a trained policy can change."""
 

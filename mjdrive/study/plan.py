@@ -160,7 +160,9 @@ def _plan_arm(
     it: ArmAgent, config: StudyConfig, folder: StudyFolder, who: Who, approaches: tuple[str, ...]
 ) -> ArmPlan:
     seed = it.agent.seed
-    is_shown = it.is_main and not it.agent.variant.change and seed in config.detail_seeds
+    is_detailed = not it.agent.variant.change and seed in config.detail_seeds
+    is_shown = it.is_main and is_detailed
+    is_long = is_shown or (it.arm.is_long and is_detailed)
     forks = tuple(
         ForkJob(
             who=who,
@@ -187,7 +189,7 @@ def _plan_arm(
         it=it,
         who=who,
         drives=_drives(who, config, folder, count=config.episodes, steps=config.steps),
-        long_drive=_long_drive(who, it.arm.name, seed, config, folder) if is_shown else None,
+        long_drive=_long_drive(who, it.arm.name, seed, config, folder) if is_long else None,
         forks=forks,
         judge=judge,
     )

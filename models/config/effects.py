@@ -15,8 +15,8 @@ _OWN: Mapping[Method, tuple[str, ...]] = {
     "ibc": _ENERGY,
     "da-ibc": _ENERGY,
     "ibc-langevin": (*_ENERGY, "langevin_negatives."),
-    "diffusion": ("denoiser.", "diffusion."),
-    "flow": ("denoiser.", "flow."),
+    "diffusion": ("denoiser.", "diffusion.", "commitment."),
+    "flow": ("denoiser.", "flow.", "commitment."),
 }
 
 _SAMPLERS = ("dfo", "grid", "langevin")
@@ -32,6 +32,8 @@ def is_idle(name: str, config: LearnerConfig) -> bool:
     others = tuple(f"sampler.{kind}." for kind in _SAMPLERS if kind != config.sampler.kind)
     if not _samples(config):
         others = (*others, "commitment.")
+    if config.commitment.hold == 0:
+        others = (*others, "denoiser.candidates")
     return not name.startswith(settings_of(config.method)) or name.startswith(others)
 
 
@@ -39,6 +41,8 @@ def _samples(config: LearnerConfig) -> bool:
     """Whether actions are drawn from something whose quantiles can be kept to."""
     if config.method in ("bc-beta", "bc-mixture"):
         return config.beta.inference == "sample"
+    if config.method in ("diffusion", "flow"):
+        return True
     if config.method == "bc-grid":
         return config.categorical.choice == "sample"
     return config.sampler.kind == "grid" and config.sampler.grid.choice == "sample"

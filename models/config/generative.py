@@ -14,8 +14,9 @@ class DenoiserConfig:
         width: Hidden units of each of its three layers [-].
         action_gain: Factor on the first weights of the noisy action; 1 is plain initialisation, more tells near actions apart sooner [-].
         draws: Noises and times that each training pair is seen with; its picture is encoded once for all of them [-].
-        noise_floor: Standard deviation of the noise that an action keeps where its density is told: labels that repeat exactly have none without it [-].
+        noise_floor: Standard deviation of the noise that an action keeps where its density is told or estimated: labels that repeat exactly have none without it [-].
         density_steps: Steps of the integration that tells it, of four evaluations of the network each [-].
+        candidates: Actions that are drawn at each decision to estimate it from, where the chance of steering lasts [-].
     """
 
     width: int = 128
@@ -23,9 +24,11 @@ class DenoiserConfig:
     draws: int = 16
     noise_floor: float = 0.05
     density_steps: int = 12
+    candidates: int = 512
 
     def __post_init__(self) -> None:
         require_positive(self, "width", "action_gain", "draws", "noise_floor", "density_steps")
+        require_positive(self, "candidates")
 
 
 @dataclasses.dataclass(frozen=True, slots=True)

@@ -40,7 +40,7 @@ class LearnerConfig:
         density: Kernel density estimate and what it weighs.
         evenness: How evenly training draws what was seen.
         sampler: How IBC and DA-IBC choose actions.
-        commitment: How long the chance of steering lasts, where actions are sampled from a grid or a density in closed form.
+        commitment: How long the chance of steering lasts, where actions are sampled from a density, in closed form, on a grid or estimated from many draws.
         optimiser: How the loss is descended on.
     """
 

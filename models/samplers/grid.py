@@ -77,16 +77,3 @@ def draw_points(
         drawn = commitment.draw(log_weights)
     actions = action_grid(round(log_weights.shape[1] ** 0.5), device=log_weights.device)
     return actions[drawn.squeeze(1)]
-
-
-def cell_widths(points: int, *, device: torch.device) -> Float[Tensor, " P"]:
-    """Width of the cell of each point; those at the ends reach inwards only [-]."""
-    widths = torch.full((points,), 2.0 / (points - 1), device=device)
-    widths[[0, -1]] /= 2
-    return widths
-
-
-def cell_areas(points: int, *, device: torch.device) -> Float[Tensor, " N"]:
-    """Area of the cell of each point of the grid [-]."""
-    widths = cell_widths(points, device=device)
-    return torch.outer(widths, widths).flatten()

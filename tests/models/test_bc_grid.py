@@ -3,8 +3,8 @@ import dataclasses
 import pytest
 import torch
 
-from models.bc_grid import nearest_points, smoothed_labels
-from models.samplers.grid import action_grid, cell_areas
+from models.cells import cell_areas, nearest_points
+from models.samplers.grid import action_grid
 
 POINTS = 9
 TABLE = torch.zeros(POINTS, POINTS)
@@ -74,27 +74,3 @@ def test_the_density_integrates_to_one_and_is_constant_in_a_cell(trained, fork):
     near = torch.tensor([[[-0.5, 0.5], [-0.39, 0.61], [-0.37, 0.5]]])
     told = trained.log_density(*fork.unseen(1), near)[0]
     assert told[0] == told[1] > told[2]
-
-
-@pytest.mark.parametrize("label", [-1.0, -0.3, 0.0, 1.0])
-def test_smoothed_labels_are_a_truncated_gaussian(label):
-    target = smoothed_labels(torch.full((1, 2), label), points=65, smoothing=0.1)[0, 0]
-    axis = torch.linspace(-1, 1, 65)
-    widths = torch.full((65,), 2 / 64)
-    widths[[0, -1]] /= 2
-    density = target / widths
-    expected = torch.exp(-0.5 * ((axis - label) / 0.1) ** 2)
-    torch.testing.assert_close(density / density.max(), expected / expected.max())
-    assert float(target.sum()) == pytest.approx(1)
-
-
-def test_without_smoothing_a_label_goes_to_the_nearest_point():
-    target = smoothed_labels(torch.tensor([[0.13, -1.0]]), points=5, smoothing=0.0)[0]
-    assert target.tolist() == [[0, 0, 1, 0, 0], [1, 0, 0, 0, 0]]
-    assert nearest_points(torch.tensor([[0.26, 1.0]]), points=5).tolist() == [[3, 4]]
-
-
-def test_little_smoothing_is_none():
-    labels = torch.tensor([[0.5, -0.25]])
-    sharp = smoothed_labels(labels, points=POINTS, smoothing=1e-3)
-    torch.testing.assert_close(sharp, smoothed_labels(labels, points=POINTS, smoothing=0.0))

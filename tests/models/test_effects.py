@@ -6,6 +6,7 @@ from models.config import (
     METHODS,
     BetaConfig,
     CategoricalConfig,
+    CommitmentConfig,
     GridConfig,
     LearnerConfig,
     Method,
@@ -52,13 +53,14 @@ CERTAIN = [
     LearnerConfig("bc-grid", categorical=CategoricalConfig(choice="argmax")),
     LearnerConfig("da-ibc", sampler=SamplerConfig(kind="grid", grid=GridConfig(choice="argmin"))),
     LearnerConfig("da-ibc", sampler=SamplerConfig(kind="dfo")),
-    LearnerConfig("flow"),
 ]
 
 SAMPLED = [
     *(LearnerConfig(it, beta=BetaConfig(inference="sample")) for it in ("bc-beta", "bc-mixture")),
     LearnerConfig("bc-grid", categorical=CategoricalConfig(choice="sample")),
     LearnerConfig("ibc", sampler=SamplerConfig(kind="grid", grid=GridConfig(choice="sample"))),
+    LearnerConfig("diffusion"),
+    LearnerConfig("flow"),
 ]
 
 
@@ -70,3 +72,9 @@ def test_chance_cannot_last_where_nothing_is_drawn_from_a_density(config: Learne
 @pytest.mark.parametrize("config", SAMPLED)
 def test_chance_can_last_where_actions_are_drawn_from_one(config: LearnerConfig) -> None:
     assert not is_idle("commitment.hold", config)
+
+
+@pytest.mark.parametrize("hold", [0, 30])
+def test_a_density_is_estimated_from_draws_only_where_chance_lasts(hold: int) -> None:
+    config = LearnerConfig("flow", commitment=CommitmentConfig(hold=hold))
+    assert is_idle("denoiser.candidates", config) == (hold == 0)

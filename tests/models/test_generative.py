@@ -5,6 +5,9 @@ import dataclasses
 import pytest
 import torch
 
+from models.config import CommitmentConfig
+from models.samplers.commitment import Commitment
+
 CELLS = 48
 EXTENT = 1.5
 
@@ -52,6 +55,34 @@ def test_the_density_of_one_action_does_not_hang_on_the_others(learner, fork, ce
     alone = learner.log_density(*fork.unseen(1), few[None, 50:53])
     torch.testing.assert_close(together[0], together[1])
     torch.testing.assert_close(alone[0], together[0, 50:53], rtol=1e-4, atol=1e-4)
+
+
+def test_where_chance_lasts_the_masses_of_both_modes_are_kept_and_each_driver_keeps_its_own(
+    learner, fork, generator
+):
+    num_drivers = 600
+    commitment = Commitment(CommitmentConfig(hold=10**9), num_drivers, generator=generator)
+    seen = fork.unseen(num_drivers)
+    first, then = (learner.act(*seen, generator=generator, commitment=commitment) for _ in range(2))
+    is_left = first[:, 1] > 0
+    assert float(is_left.float().mean()) == pytest.approx(fork.share_left, abs=0.06)
+    same = is_left == (then[:, 1] > 0)
+    assert float(same.float().mean()) > 0.97
+    # Acceleration is drawn anew; steering moves by what the estimate does.
+    moved = (then - first)[same].abs().median(dim=0).values
+    assert moved[1] < 0.15 * moved[0]
+
+
+def test_what_is_drawn_from_where_chance_lasts_has_the_noise_floor(learner, fork, generator):
+    num_drivers = 600
+    commitment = Commitment(CommitmentConfig(hold=1), num_drivers, generator=generator)
+    seen = fork.unseen(num_drivers)
+    lasting = learner.act(*seen, generator=generator, commitment=commitment)
+    anew = learner.act(*seen, generator=generator)
+    for component in (0, 1):
+        left, plain = (it[it[:, 1] > 0][:, component] for it in (lasting, anew))
+        expected = (plain.var() + learner.config.denoiser.noise_floor**2).sqrt()
+        assert left.std() == pytest.approx(float(expected), rel=0.15)
 
 
 @pytest.mark.parametrize("draws", [1, 4])

@@ -1,5 +1,6 @@
 """What a study has to do."""
 
+import dataclasses
 from pathlib import Path
 
 import pytest
@@ -25,3 +26,20 @@ def test_agents_act_as_their_arms_say(
     assert {it.sampler.grid.points for it in settings.values()} == {9}  # those of the variant
     seen = {job.who for it in arms for job in (*it.all_drives, *it.forks)}
     assert seen == {it.who for it in arms}
+
+
+def test_main_arms_and_those_that_say_so_make_the_long_drive(
+    tiny: StudyConfig, town02: Town, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(drivers, "digest", lambda run: "ab")
+    mode = dataclasses.replace(tiny.arms[0], name="bc-beta-mean", acting=("beta.inference=mean",))
+    arms = (tiny.arms[0], dataclasses.replace(mode, is_long=True), *tiny.arms[1:])
+    config = dataclasses.replace(tiny, arms=arms)
+    runs = {it.name: tmp_path / it.name for it in agents(config)}
+
+    def long_drives(config: StudyConfig) -> list[str]:
+        found = plan.plan_arms(config, StudyFolder(tmp_path), runs, town02, precision="float32")
+        return [it.who.name for it in found if it.it is not None and it.long_drive is not None]
+
+    assert long_drives(config) == ["bc-beta-sample-3", "bc-beta-mean-3", "da-ibc-sample-3"]
+    assert long_drives(dataclasses.replace(config, detail_seeds=())) == []

@@ -99,8 +99,11 @@ def test_each_variant_has_one_main_arm() -> None:
 
 
 def test_methods_that_a_preset_lacks_can_be_asked_for() -> None:
-    assert [it.name for it in chosen("quick", methods=["flow"]).arms] == ["flow-sample"]
-    assert [it.name for it in chosen("paper", methods=["diffusion"]).arms] == ["diffusion-sample"]
+    assert [it.name for it in chosen("quick", methods=["flow"]).arms] == ["flow-committed"]
+    assert [it.name for it in chosen("paper", methods=["diffusion"]).arms] == [
+        "diffusion-committed",
+        "diffusion-sample",
+    ]
 
 
 def test_settings_of_the_study_and_of_learners_are_changed() -> None:
