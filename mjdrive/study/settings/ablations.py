@@ -40,6 +40,12 @@ ABLATIONS = (
         "sees its previous action",
         'network.state_inputs=["speed", "previous_acceleration", "previous_steering"]',
     ),
+    _variant(
+        "previous-action-dropped",
+        "sees its previous action, in training half of the time",
+        'network.state_inputs=["speed", "previous_acceleration", "previous_steering"]',
+        "network.state_dropout=0.5",
+    ),
     _variant("plain-head", "plain first weights of the action", "network.action_gain=1"),
     _variant("undisturbed", "undisturbed demonstrations", demonstrations="undisturbed"),
 )
