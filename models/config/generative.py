@@ -24,7 +24,7 @@ class DenoiserConfig:
     draws: int = 16
     noise_floor: float = 0.05
     density_steps: int = 12
-    candidates: int = 512
+    candidates: int = 256
 
     def __post_init__(self) -> None:
         require_positive(self, "width", "action_gain", "draws", "noise_floor", "density_steps")
