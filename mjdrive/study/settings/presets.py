@@ -6,7 +6,14 @@ from collections.abc import Callable, Sequence
 from mjdrive.config import Arm, Demonstrations, StudyConfig, Variant
 from mjdrive.config.study import names_of
 from mjdrive.errors import UnknownNameError
-from mjdrive.study.settings.ablations import ABLATIONS, ACTING_ABLATIONS, LONG, LONG_STEEP
+from mjdrive.study.settings.ablations import (
+    ABLATIONS,
+    ACTING_ABLATIONS,
+    DFO,
+    LONG,
+    LONG_STEEP,
+    PAPERS_DFO,
+)
 from models.config import METHODS
 
 UNDISTURBED = Demonstrations("undisturbed", preset="paper")
@@ -26,18 +33,8 @@ _COMMITTED = "commitment.hold=30"
 _GRID_SAMPLED = ("sampler.kind=grid", "sampler.grid.choice=sample", _ANEW)
 _GRID_COMMITTED = ("sampler.kind=grid", "sampler.grid.choice=sample", _COMMITTED)
 _GRID_LOWEST = ("sampler.kind=grid", "sampler.grid.choice=argmin")
-_DFO = (
-    "sampler.kind=dfo",
-    "sampler.dfo.num_samples=16384",
-    "sampler.dfo.iterations=5",
-    "sampler.dfo.sigma_init=0.5",
-    "sampler.dfo.shrink=0.5",
-    "sampler.dfo.start=inverse_kde",
-)
-_PAPERS_DFO = (*_DFO, "sampler.dfo.temper=false", "sampler.dfo.choice=sample")
-
 _TEMPERED_DFO = (
-    *_DFO,
+    *DFO,
     "sampler.dfo.num_samples=2048",
     "sampler.dfo.temper=true",
     "sampler.dfo.choice=sample",
@@ -82,7 +79,7 @@ ARMS = (
     Arm("da-ibc-committed", "da-ibc", "DA-IBC, grid committed", _GRID_COMMITTED),
     Arm("da-ibc-sample", "da-ibc", "DA-IBC, grid sampled", _GRID_SAMPLED),
     Arm("da-ibc-argmin", "da-ibc", "DA-IBC, grid lowest", _GRID_LOWEST),
-    Arm("da-ibc-dfo", "da-ibc", "DA-IBC, the paper's DFO", _PAPERS_DFO),
+    Arm("da-ibc-dfo", "da-ibc", "DA-IBC, the paper's DFO", PAPERS_DFO),
     _aside("da-ibc-tempered", "da-ibc", "DA-IBC, tempered DFO", *_TEMPERED_DFO),
     Arm("ibc-langevin-committed", "ibc-langevin", "Langevin IBC, grid committed", _GRID_COMMITTED),
     Arm("ibc-langevin-chain", "ibc-langevin", "Langevin IBC, chains", ("sampler.kind=langevin",)),
@@ -97,12 +94,12 @@ by mode and by sample are the 2 x 2 control; what is committed as well says what
 _PAPER_ARMS = (
     Arm("bc-beta-mode", "bc-beta", "BC-Beta, mode", ("beta.inference=mode",)),
     Arm("bc-beta-sample", "bc-beta", "BC-Beta, sampled", ("beta.inference=sample", _ANEW)),
-    Arm("da-ibc-dfo", "da-ibc", "DA-IBC, the paper's DFO", _PAPERS_DFO),
+    Arm("da-ibc-dfo", "da-ibc", "DA-IBC, the paper's DFO", PAPERS_DFO),
     Arm(
         "da-ibc-dfo-argmin",
         "da-ibc",
         "DA-IBC, DFO lowest",
-        (*_DFO, "sampler.dfo.temper=false", "sampler.dfo.choice=argmin"),
+        (*DFO, "sampler.dfo.temper=false", "sampler.dfo.choice=argmin"),
     ),
 )
 
