@@ -1,7 +1,7 @@
 """Every setting of the learners, among them each ambiguity of the paper; presets are in `models.presets`."""
 
 from models.config.commitment import CommitmentConfig
-from models.config.effects import is_idle, settings_of
+from models.config.effects import density_settings, is_idle, settings_of
 from models.config.evenness import EvennessConfig
 from models.config.explicit import BetaConfig, CategoricalConfig, MixtureConfig
 from models.config.generative import DenoiserConfig, DiffusionConfig, FlowConfig
@@ -41,6 +41,7 @@ __all__ = [
     "Start",
     "StateInput",
     "Undo",
+    "density_settings",
     "is_idle",
     "settings_of",
 ]

@@ -1,7 +1,9 @@
 """Which settings have an effect on which method; all that compares settings of learners goes by it."""
 
+import dataclasses
 from collections.abc import Mapping
 
+from models.config.commitment import CommitmentConfig
 from models.config.learner import LearnerConfig, Method
 
 _SHARED = ("method", "network.", "density.", "evenness.", "optimiser.")
@@ -46,3 +48,20 @@ def _samples(config: LearnerConfig) -> bool:
     if config.method == "bc-grid":
         return config.categorical.choice == "sample"
     return config.sampler.kind == "grid" and config.sampler.grid.choice == "sample"
+
+
+def density_settings(config: LearnerConfig) -> LearnerConfig:
+    """Settings that decide the density which a learner tells: those of drawing from it are the same for all.
+
+    Learners with the same weights tell the same density, to the byte, if these are equal.
+    """
+    replace = dataclasses.replace
+    grid = replace(config.sampler.grid, choice="sample", temperature=1.0)
+    return replace(
+        config,
+        beta=replace(config.beta, inference="sample"),
+        categorical=replace(config.categorical, choice="sample", temperature=1.0),
+        denoiser=replace(config.denoiser, candidates=1),
+        sampler=replace(config.sampler, grid=grid),
+        commitment=CommitmentConfig(),
+    )

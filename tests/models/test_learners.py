@@ -1,10 +1,12 @@
 """What every learner keeps, whatever its method."""
 
+import dataclasses
+
 import pytest
 import torch
 
 from models import checkpoint, presets
-from models.config import METHODS
+from models.config import METHODS, CommitmentConfig, LearnerConfig, density_settings
 from models.interfaces import Batch, Learner
 from models.learners import build_learner
 
@@ -121,3 +123,36 @@ SIZES = {
 def test_its_size_is_that_of_the_documentation(learner):
     built = build_learner(presets.standard(learner.config.method), seed=0)
     assert sum(it.numel() for it in built.parameters()) == SIZES[learner.config.method]
+
+
+def test_the_density_is_the_same_where_its_settings_are(learner, batch):
+    """However actions are drawn from it."""
+    mine = learner.config
+    drawn = dataclasses.replace(
+        mine,
+        beta=dataclasses.replace(mine.beta, inference="mean"),
+        categorical=dataclasses.replace(mine.categorical, choice="argmax", temperature=0.5),
+        denoiser=dataclasses.replace(mine.denoiser, candidates=7),
+        sampler=dataclasses.replace(
+            mine.sampler,
+            grid=dataclasses.replace(mine.sampler.grid, choice="argmin", temperature=3.0),
+        ),
+        commitment=CommitmentConfig(hold=5, split=0.3, release=0.5),
+    )
+    assert density_settings(drawn) == density_settings(mine)
+    told = []
+    actions = 2 * torch.rand((1, 9, 2), generator=torch.Generator().manual_seed(2)) - 1
+    for config in (mine, drawn):
+        learner.config = config
+        told.append(learner.log_density(batch.bev[:2], batch.state[:2], actions))
+    learner.config = mine
+    assert torch.equal(*told)
+
+
+def test_settings_that_change_a_density_are_told_apart():
+    plain = LearnerConfig("flow")
+    floor = dataclasses.replace(plain.denoiser, noise_floor=0.2)
+    assert density_settings(dataclasses.replace(plain, denoiser=floor)) != density_settings(plain)
+    energy = presets.standard("da-ibc")
+    undone = dataclasses.replace(energy.sampler, undo="negatives")
+    assert density_settings(dataclasses.replace(energy, sampler=undone)) != density_settings(energy)

@@ -1,5 +1,6 @@
 """Ask the agents of a study what they think: of what the expert did, and of every action at the moments of the pictures."""
 
+import dataclasses
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +22,7 @@ from mjdrive.study.records.measures import LandscapeFigures, Likelihood
 from mjdrive.study.records.results import LandscapeRecord
 from mjdrive.study.records.situations import Moment, situations
 from mjdrive.versions import require_same
+from models.config import density_settings
 from models.threads import one_thread
 
 _DIGITS = 9
@@ -111,7 +113,7 @@ class Judging:
 def judge_all(
     work: Judging, jobs: Sequence[JudgeJob], *, executor: Executor, report: Report
 ) -> None:
-    """Ask the agents that have not been asked yet.
+    """Ask the agents that have not been asked yet; who thinks the same as another and only acts otherwise is not asked twice.
 
     Args:
         work: What they are asked.
@@ -123,15 +125,38 @@ def judge_all(
         RunError: If the run of an agent cannot be loaded.
         WorkerError: If a process was lost.
     """
+    asked = _asked(jobs)
     do_all(
         work,
-        jobs,
+        list(dict.fromkeys(asked.values())),
         size=lambda job: 1,
         is_done=lambda job: read_record(job) is not None,
         keep=lambda job, judged: config.write_json(_kept(job, judged), job.file),
         executor=executor,
         report=report,
     )
+    for job, other in asked.items():
+        if job is other:
+            continue
+        if read_record(job) is None:
+            found = read_record(other)
+            assert found is not None, "it has been asked"
+            config.write_json(dataclasses.replace(found, landscapes=()), job.file)
+        report(job.name, 1, 1)
+
+
+def _asked(jobs: Sequence[JudgeJob]) -> dict[JudgeJob, JudgeJob]:
+    """Who is asked for each agent: itself where its landscapes are kept, else the first with its density."""
+    first: dict[object, JudgeJob] = {}
+    for job in sorted(jobs, key=lambda it: it.landscapes is None):
+        first.setdefault(_density(job.who), job)
+    return {job: job if job.landscapes else first[_density(job.who)] for job in jobs}
+
+
+def _density(who: Who) -> object:
+    """What decides what somebody thinks."""
+    assert who.settings is not None, "references do not think"
+    return who.digest, density_settings(who.settings), who.precision
 
 
 def read_record(job: JudgeJob) -> JudgeRecord | None:
