@@ -154,5 +154,7 @@ def test_settings_that_change_a_density_are_told_apart():
     floor = dataclasses.replace(plain.denoiser, noise_floor=0.2)
     assert density_settings(dataclasses.replace(plain, denoiser=floor)) != density_settings(plain)
     energy = presets.standard("da-ibc")
+    uncorrected = dataclasses.replace(energy.negatives, correction="none")
+    energy = dataclasses.replace(energy, negatives=uncorrected)
     undone = dataclasses.replace(energy.sampler, undo="negatives")
     assert density_settings(dataclasses.replace(energy, sampler=undone)) != density_settings(energy)
