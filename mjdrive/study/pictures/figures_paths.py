@@ -33,6 +33,10 @@ PINS = {
 """Legend text, marker and colour of what is pinned to the map, by the field that lists the places."""
 
 
+SIZES = {"*": 110.0}
+"""Of markers that fill less of their square than others [pt^2]."""
+
+
 def draw_paths(
     paths: Sequence[tuple[Look, DrivenPath]], town: Town, path: Path, *, columns: int = 2
 ) -> None:
@@ -57,7 +61,7 @@ def draw_paths(
         for axes, (look, driven) in zip(grid.flat, paths, strict=False):
             draw_town(axes, town)
             _draw_path(axes, driven, colour=look.colour)
-            _draw_pins(axes, driven, size=70.0 / columns)
+            _draw_pins(axes, driven)
             axes.set(
                 xlim=(town.bounds[0] - MARGIN, town.bounds[2] + MARGIN),
                 ylim=(town.bounds[1] - MARGIN, town.bounds[3] + MARGIN),
@@ -104,12 +108,12 @@ def _draw_path(axes: Axes, driven: DrivenPath, *, colour: str) -> None:
     axes.plot(*points[0], "o", color="white", mec="black", ms=5, zorder=3, label="start", ls="")
 
 
-def _draw_pins(axes: Axes, driven: DrivenPath, *, size: float) -> None:
+def _draw_pins(axes: Axes, driven: DrivenPath) -> None:
     for name, (label, marker, colour) in PINS.items():
         places = np.array(getattr(driven, name)).reshape(-1, 2)
         if len(places):
             axes.scatter(
                 places[:, 0],
-                places[:, 1], s=size, marker=marker, color=colour, edgecolor="white", linewidth=0.6,
+                places[:, 1], s=SIZES.get(marker, 50.0), marker=marker, color=colour, edgecolor="white", linewidth=0.6,
                 label=label, zorder=4,
             )  # fmt: skip
