@@ -60,7 +60,7 @@ def test_the_density_of_one_action_does_not_hang_on_the_others(learner, fork, ce
 def test_where_chance_lasts_the_masses_of_both_modes_are_kept_and_each_driver_keeps_its_own(
     learner, fork, generator
 ):
-    num_drivers = 600
+    num_drivers = 300
     commitment = Commitment(CommitmentConfig(hold=10**9), num_drivers, generator=generator)
     seen = fork.unseen(num_drivers)
     first, then = (learner.act(*seen, generator=generator, commitment=commitment) for _ in range(2))
@@ -74,7 +74,7 @@ def test_where_chance_lasts_the_masses_of_both_modes_are_kept_and_each_driver_ke
 
 
 def test_what_is_drawn_from_where_chance_lasts_has_the_noise_floor(learner, fork, generator):
-    num_drivers = 600
+    num_drivers = 400
     commitment = Commitment(CommitmentConfig(hold=1), num_drivers, generator=generator)
     seen = fork.unseen(num_drivers)
     lasting = learner.act(*seen, generator=generator, commitment=commitment)
