@@ -9,7 +9,6 @@ from mjdrive.config import read_json
 from mjdrive.study.records.results import RESULTS, STUDY, StudyRecord, StudyResults
 from mjdrive.study.tables.ratio_table import ratio_table
 from mjdrive.study.tables.summary_table import summary_table
-from mjdrive.study.tables.tables import ablation_table
 
 ROOT = Path(__file__).resolve().parents[1]
 STUDIES = {"seeds": ROOT / "docs" / "results", "methods": ROOT / "docs" / "results" / "methods"}
@@ -27,8 +26,6 @@ def tables() -> dict[str, str]:
         found[f"{name}, in short"] = summary_table(config, results)
         if name == "seeds":
             found[f"{name}, beside the bars"] = ratio_table(config, results)
-        else:
-            found[f"{name}, changes of DA-IBC"] = ablation_table(config, results)
     return found
 
 
