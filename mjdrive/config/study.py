@@ -42,6 +42,8 @@ class Variant:
         assignments: Changes to the preset, each as "negatives.count=64".
         demonstrations: Name of what it learns from.
         change: What sets an ablation apart, in words; empty for a method of the study itself.
+        base: Name of the variant that an ablation changes; that whose name is its method if empty.
+        all_seeds: Whether it is trained with all seeds, or with `StudyConfig.detail_seeds` alone; an ablation has seeds of its own.
     """
 
     name: str
@@ -50,6 +52,8 @@ class Variant:
     assignments: tuple[str, ...] = ()
     demonstrations: str = "demonstrations"
     change: str = ""
+    base: str = ""
+    all_seeds: bool = True
 
 
 @dataclass(frozen=True, slots=True)

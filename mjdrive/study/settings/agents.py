@@ -51,8 +51,14 @@ def agents(config: StudyConfig) -> tuple[Agent, ...]:
     return tuple(
         Agent(variant, seed)
         for variant in config.variants
-        for seed in (config.ablation_seeds if variant.change else config.seeds)
+        for seed in _training_seeds(config, variant)
     )
+
+
+def _training_seeds(config: StudyConfig, variant: Variant) -> tuple[int, ...]:
+    if variant.change:
+        return config.ablation_seeds
+    return config.seeds if variant.all_seeds else config.detail_seeds
 
 
 def arm_agents(config: StudyConfig) -> tuple[ArmAgent, ...]:
@@ -72,6 +78,26 @@ def arm_agents(config: StudyConfig) -> tuple[ArmAgent, ...]:
 def main_arm(config: StudyConfig, variant: str) -> Arm:
     """The first arm of a variant."""
     return next(arm for arm in config.arms if arm.variant == variant)
+
+
+def ablations(config: StudyConfig) -> tuple[tuple[Arm, ...], ...]:
+    """Groups of arms: first the main arm of a variant, then every arm that changes it.
+
+    What is trained anew changes `Variant.base`, what acts in another way changes its own variant. A group whose base does
+    not drive in this study begins with its first change.
+    """
+    variants = {it.name: it for it in config.variants}
+    changed: dict[str, list[Arm]] = {}
+    for arm in config.arms:
+        variant = variants[arm.variant]
+        if variant.change:
+            changed.setdefault(variant.base or variant.method, []).append(arm)
+        elif arm.change:
+            changed.setdefault(variant.name, []).append(arm)
+    return tuple(
+        (*((main_arm(config, base),) if base in variants else ()), *arms)
+        for base, arms in changed.items()
+    )
 
 
 def learner_config(variant: Variant) -> LearnerConfig:

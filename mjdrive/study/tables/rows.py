@@ -1,6 +1,6 @@
 """What the tables of a study have in a row: all agents of an arm together, or a reference."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +11,7 @@ from mjdrive.evaluation import bootstrap
 from mjdrive.evaluation.bootstrap import Interval, Statistic
 from mjdrive.study.records.measures import DriveFigures
 from mjdrive.study.records.results import ArmResult, StudyResults
+from mjdrive.study.settings.agents import ablations
 
 REFERENCE_LABELS = {
     "expert": "PID expert, random walk",
@@ -48,6 +49,10 @@ class Row:
         return np.array([found], float).T if found else None
 
 
+Column = tuple[str, Callable[[Row], str]]
+"""Title, and what a row shows there."""
+
+
 def reference_rows(found: StudyResults) -> tuple[Row, ...]:
     """The references, which are in every table."""
     return tuple(
@@ -74,6 +79,33 @@ def arm_rows(config: StudyConfig, found: StudyResults) -> tuple[Row, ...]:
         for arm in config.arms
     )
     return tuple(row for row in rows if row.results)
+
+
+def ablation_labels(config: StudyConfig) -> tuple[dict[str, str], ...]:
+    """Groups of arms by name: first what is changed, by its label, then by its change each arm that changes it."""
+    changes = {variant.name: variant.change for variant in config.variants}
+    return tuple(
+        {base.name: base.label} | {it.name: it.change or changes[it.variant] for it in changed}
+        for base, *changed in ablations(config)
+    )
+
+
+def same_seeds(found: StudyResults, labels: Mapping[str, str]) -> list[tuple[str, Row]]:
+    """Rows of those arms that drove, each by the training seeds that all of them have, with the names of the arms.
+
+    Args:
+        found: What was found.
+        labels: What to call each arm, by its name.
+    """
+    driven = {name: [it for it in found.arms if it.arm == name] for name in labels}
+    driven = {name: results for name, results in driven.items() if results}
+    if not driven:
+        return []
+    shared = set.intersection(*({it.seed for it in results} for results in driven.values()))
+    return [
+        (name, Row(labels[name], tuple(it for it in results if it.seed in shared)))
+        for name, results in driven.items()
+    ]
 
 
 def interval(figures: Float[np.ndarray, "S E"]) -> Interval:

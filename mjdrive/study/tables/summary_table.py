@@ -8,6 +8,7 @@ from mjdrive.study.tables.arm_figures import recall_by, total
 from mjdrive.study.tables.ratio_table import LONG_SECONDS, distance_ratio, recall_ratio
 from mjdrive.study.tables.rows import (
     NOTHING,
+    Column,
     Row,
     agent_cell,
     arm_rows,
@@ -28,9 +29,19 @@ def summary_table(config: StudyConfig, found: StudyResults) -> str:
         config: Settings of the study.
         found: Its results.
     """
-    expert = expert_row(found)
     rows = [*(it for it in arm_rows(config, found) if not it.change), *reference_rows(found)]
-    shown: list[tuple[str, Callable[[Row], str]]] = [
+    shown = [
+        *summary_columns(found),
+        (f"ways in {LONG_SECONDS:,.0f} s", _long_ways),
+    ]
+    head = ["", *(title for title, _ in shown)]
+    return markdown(head, [[row.label, *(show(row) for _, show in shown)] for row in rows])
+
+
+def summary_columns(found: StudyResults) -> tuple[Column, ...]:
+    """What happened in the drives of a row, and which ways it took."""
+    expert = expert_row(found)
+    return (
         ("distance / the expert's", lambda row: distance_ratio(row, expert)),
         ("red lights", _counts(total(lambda it: it.red_lights))),
         ("collisions", _counts(total(lambda it: it.collisions))),
@@ -39,14 +50,11 @@ def summary_table(config: StudyConfig, found: StudyResults) -> str:
         ("off the road [s]", _counts(total(lambda it: it.off_road_s))),
         (f"ways of {_num_ways(found)}", _counts(lambda it: it.choices.taken)),
         ("ways / the expert's", lambda row: recall_ratio(row, expert)),
-        (f"ways in {LONG_SECONDS:,.0f} s", _long_ways),
         (
             "JS of turns [bit]",
             lambda row: agent_cell(row, lambda it: it.choices.turn_divergence, digits=3),
         ),
-    ]
-    head = ["", *(title for title, _ in shown)]
-    return markdown(head, [[row.label, *(show(row) for _, show in shown)] for row in rows])
+    )
 
 
 def _counts(figure: Callable[[ArmResult], float]) -> Callable[[Row], str]:

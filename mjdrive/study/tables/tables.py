@@ -7,6 +7,7 @@ from mjdrive.config import StudyConfig, read_json
 from mjdrive.files import write_atomically
 from mjdrive.study.records.measures import DriveFigures
 from mjdrive.study.records.results import RESULTS, STUDY, ArmResult, StudyRecord, StudyResults
+from mjdrive.study.tables.ablation_table import ablation_table
 from mjdrive.study.tables.arm_figures import (
     conditional_entropy,
     exits_taken,
@@ -25,6 +26,7 @@ from mjdrive.study.tables.arm_figures import (
 from mjdrive.study.tables.ratio_table import ratio_table
 from mjdrive.study.tables.rows import (
     NOTHING,
+    Column,
     Row,
     agent_cell,
     arm_rows,
@@ -46,9 +48,6 @@ SUMMARY, PAPER, MULTIMODALITY, RATIOS, ABLATIONS, DATA = (
     "ablations.md",
     "demonstrations.md",
 )
-
-Column = tuple[str, Callable[[Row], str]]
-"""Title, and what a row shows there."""
 
 
 def write_tables(folder: Path) -> None:
@@ -131,30 +130,6 @@ def multimodality_table(config: StudyConfig, found: StudyResults) -> str:
     )
     rows = [*reference_rows(found), *(it for it in arm_rows(config, found) if not it.change)]
     return _table(rows, columns)
-
-
-def ablation_table(config: StudyConfig, found: StudyResults) -> str:
-    """Single changes of DA-IBC below what they change, by the same seeds."""
-    rows = arm_rows(config, found)
-    changed = [row for row in rows if row.change]
-    if not changed:
-        return "This study has no ablations.\n"
-    seeds = {it.seed for row in changed for it in row.results}
-    base = next(row for row in rows if row.results[0].variant == "da-ibc")
-    kept = tuple(it for it in base.results if it.seed in seeds)
-    columns: tuple[Column, ...] = (
-        ("distance [m]", _drive(lambda it: it.distance_m)),
-        ("penalty", _drive(lambda it: it.penalty)),
-        ("score [m]", _drive(lambda it: it.score)),
-        ("off road [s] in all", _summed(lambda it: it.off_road_s)),
-        ("collisions in all", _summed(lambda it: it.collisions)),
-        ("branch recall", _agent(lambda it: it.choices.recall)),
-        ("JS of turns [bit]", _agent(lambda it: it.choices.turn_divergence, digits=3)),
-        ("mode precision", _agent(mode_precision)),
-        ("held-out log-likelihood [nats]", _agent(held_out_gain)),
-    )
-    shown = [Row(base.label, kept), *(Row(it.change, it.results) for it in changed)]
-    return _table(shown, columns)
 
 
 def data_table(found: StudyResults) -> str:

@@ -4,7 +4,12 @@ import pytest
 
 from mjdrive.config import Variant
 from mjdrive.learning.settings import learner_settings
-from mjdrive.study.settings.ablations import ABLATIONS, ACTING_ABLATIONS, LONG_STEEP
+from mjdrive.study.settings.ablations import (
+    ABLATIONS,
+    ACTING_ABLATIONS,
+    LONG_STEEP,
+    QUARTER,
+)
 from mjdrive.study.settings.agents import learner_config
 from models.config import LearnerConfig, is_idle
 
@@ -36,10 +41,20 @@ def learning_differences(one: LearnerConfig, other: LearnerConfig) -> set[str]:
 @pytest.mark.parametrize("ablation", ABLATIONS, ids=lambda it: it.name)
 def test_each_ablation_learns_in_another_way_and_says_how(ablation: Variant) -> None:
     assert ablation.change
-    changed = learning_differences(learner_config(ablation), STUDYS)
+    base = STUDYS if ablation is QUARTER else learner_config(QUARTER)
+    assert ablation.base == ("da-ibc" if ablation is QUARTER else QUARTER.name)
+    changed = learning_differences(learner_config(ablation), base)
     assert changed or ablation.demonstrations != "demonstrations"
     if ablation.name not in {"da-ibc-papers", "da-ibc-papers-negatives"}:
         assert len(changed) <= 2
+
+
+@pytest.mark.parametrize("ablation", ABLATIONS, ids=lambda it: it.name)
+def test_ablations_of_training_learn_for_as_many_steps_as_each_other(ablation: Variant) -> None:
+    samples = {"demonstrations": 1_181_041, "undisturbed": 1_000_000, "routes": 23_260}
+    optimiser = learner_config(ablation).optimiser
+    steps = optimiser.epochs * optimiser.steps_per_epoch(samples[ablation.demonstrations])
+    assert steps == pytest.approx(4614, rel=0.2)
 
 
 def test_what_has_all_of_the_papers_choices_differs_from_it_in_the_optimiser_alone() -> None:

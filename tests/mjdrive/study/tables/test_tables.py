@@ -8,7 +8,6 @@ import pytest
 from mjdrive.config import Arm, StudyConfig, Variant
 from mjdrive.evaluation.choices import ChoiceStatistics
 from mjdrive.evaluation.forking import ForkOutcome
-from mjdrive.study.pictures.ablation_rows import same_seeds
 from mjdrive.study.records.measures import Curve, DriveFigures, Likelihood
 from mjdrive.study.records.results import ArmResult, DataResult, StudyResults
 from mjdrive.study.tables import arm_figures, rows, tables
@@ -192,12 +191,12 @@ def test_the_picture_of_ablations_compares_the_same_seeds(
     study: tuple[StudyConfig, StudyResults],
 ) -> None:
     labels = {"sample": "DA-IBC", "plain": "plain head"}
-    both = same_seeds(study[1], ["sample", "plain"], labels)
+    both = rows.same_seeds(study[1], labels)
     assert [(name, [it.seed for it in row.results]) for name, row in both] == [
         ("sample", [0]),
         ("plain", [0]),
     ]
-    (alone,) = same_seeds(study[1], ["sample"], labels)
+    (alone,) = rows.same_seeds(study[1], {"sample": "DA-IBC"})
     assert [it.seed for it in alone[1].results] == [0, 1]
 
 
@@ -258,9 +257,26 @@ def test_ablations_stand_below_the_same_seeds_of_what_they_change(
     study: tuple[StudyConfig, StudyResults],
 ) -> None:
     table = tables.ablation_table(*study)
-    assert cells(table, "DA-IBC, sampled")["training seeds"] == "1"
-    assert cells(table, "plain head")["off road [s] in all"] == "3.50"
-    assert list(table.splitlines())[2].startswith("| DA-IBC, sampled")
+    assert cells(table, "**DA-IBC, sampled**")["training seeds"] == "1"
+    assert cells(table, "plain head")["off the road [s]"] == "3.5"
+    assert list(table.splitlines())[2].startswith("| **DA-IBC, sampled**")
+
+
+def test_ablations_of_a_variant_that_is_one_itself_have_a_group_of_their_own(
+    study: tuple[StudyConfig, StudyResults],
+) -> None:
+    config, found = study
+    brief = Variant("brief", "da-ibc", change="trained briefly")
+    plain = dataclasses.replace(config.variants[1], base="brief")
+    config = dataclasses.replace(
+        config,
+        variants=(config.variants[0], brief, plain),
+        arms=(*config.arms, Arm("brief", "brief", "DA-IBC, brief")),
+    )
+    assert rows.ablation_labels(config) == (
+        {"plain": "plain head"} | {"brief": "DA-IBC, brief"},
+        {"sample": "DA-IBC, sampled", "brief": "trained briefly"},
+    )
 
 
 def test_multimodality_shows_what_was_measured_and_a_dash_elsewhere(
