@@ -27,7 +27,7 @@ STUDIES = Path("studies")
 @click.option(
     "--methods",
     metavar="NAME,NAME",
-    help="Methods to compare, as bc-beta,da-ibc. [default: as the preset says]",
+    help="Methods to compare, as bc-beta,da-ibc, each with all seeds. [default: as the preset says]",
 )
 @click.option(
     "--seeds",

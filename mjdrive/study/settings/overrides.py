@@ -29,7 +29,7 @@ def chosen(
     Args:
         preset: Name of the preset.
         methods: What is compared.
-        seeds: Training seeds of the methods; seeds of ablations and details that are not among them are left out [-].
+        seeds: Training seeds of all methods; seeds of ablations and details that are not among them are left out [-].
         episodes: Drives of each agent in each of its ways to act [-].
         steps: Control steps of each of them [-].
         assignments: Other changes, each as "long_steps=0" for the study, "optimiser.epochs=5" for every learner or
@@ -61,6 +61,7 @@ def chosen(
     wanted = values.get("seeds")
     if isinstance(wanted, Sequence) and not isinstance(wanted, str):
         values = _some_of(study, wanted) | values
+        study = presets.with_all_seeds(study)
     plain = json.loads(config.to_json(study)) | values
     return config.from_dict(StudyConfig, plain)
 

@@ -131,7 +131,8 @@ def quick(methods: Sequence[str] | None = None) -> StudyConfig:
 def standard(methods: Sequence[str] | None = None) -> StudyConfig:
     """Every method with the settings that drive best, and what each setting of DA-IBC is worth.
 
-    Three agents of each method that is asked for; if none is, of the two that the question is about, and one of each other.
+    Three agents of each method that is asked for; if none is, of the two that the question is about, and one of each
+    other, as more would take longer than a night.
     """
     thorough = COMPARED if methods is None else methods
     methods = METHODS if methods is None else methods
@@ -213,6 +214,12 @@ def without_ablations(config: StudyConfig) -> StudyConfig:
     methods = {it.name for it in config.variants if not it.change}
     kept = [it for it in config.arms if it.variant in methods and not it.change]
     return _with(config, kept)
+
+
+def with_all_seeds(config: StudyConfig) -> StudyConfig:
+    """The same study with an agent for each method and seed."""
+    variants = tuple(dataclasses.replace(it, all_seeds=True) for it in config.variants)
+    return dataclasses.replace(config, variants=variants)
 
 
 def with_arms(config: StudyConfig, names: Sequence[str]) -> StudyConfig:

@@ -31,6 +31,15 @@ def test_the_standard_study_compares_all_methods_and_two_of_them_with_three_agen
     ]
 
 
+def test_seeds_that_are_asked_for_are_those_of_all_methods() -> None:
+    for study in (
+        chosen("standard", seeds=[3, 4]),
+        chosen("standard", assignments=["seeds=[3,4]"]),
+    ):
+        trained = [it.name for it in agents(study) if not it.variant.change]
+        assert trained == [f"{name}-{seed}" for name in METHODS for seed in (3, 4)]
+
+
 def test_methods_that_are_asked_for_have_three_agents_each() -> None:
     trained = agents(chosen("standard", methods=["ibc", "flow"]))
     assert [it.name for it in trained] == [

@@ -265,7 +265,7 @@ def test_ablations_stand_below_the_same_seeds_of_what_they_change(
 def test_ablations_of_a_variant_that_is_one_itself_have_a_group_of_their_own(
     study: tuple[StudyConfig, StudyResults],
 ) -> None:
-    config, found = study
+    config, _ = study
     brief = Variant("brief", "da-ibc", change="trained briefly")
     plain = dataclasses.replace(config.variants[1], base="brief")
     config = dataclasses.replace(
@@ -274,7 +274,7 @@ def test_ablations_of_a_variant_that_is_one_itself_have_a_group_of_their_own(
         arms=(*config.arms, Arm("brief", "brief", "DA-IBC, brief")),
     )
     assert rows.ablation_labels(config) == (
-        {"plain": "plain head"} | {"brief": "DA-IBC, brief"},
+        {"brief": "DA-IBC, brief", "plain": "plain head"},
         {"sample": "DA-IBC, sampled", "brief": "trained briefly"},
     )
 
