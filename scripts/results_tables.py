@@ -7,11 +7,13 @@ from pathlib import Path
 
 from mjdrive.config import read_json
 from mjdrive.study.records.results import RESULTS, STUDY, StudyRecord, StudyResults
+from mjdrive.study.tables.ablation_table import ablation_table
 from mjdrive.study.tables.ratio_table import ratio_table
 from mjdrive.study.tables.summary_table import summary_table
 
 ROOT = Path(__file__).resolve().parents[1]
-STUDIES = {"seeds": ROOT / "docs" / "results", "methods": ROOT / "docs" / "results" / "methods"}
+DOCS = ROOT / "docs" / "results"
+STUDIES = {"seeds": DOCS, "methods": DOCS / "methods", "ablations": DOCS / "ablations"}
 """Where each study is kept, by how its tables are called."""
 
 PAGES = (ROOT / "docs" / "results.md", ROOT / "README.md")
@@ -23,6 +25,9 @@ def tables() -> dict[str, str]:
     for name, folder in STUDIES.items():
         config = read_json(StudyRecord, folder / STUDY).settings
         results = read_json(StudyResults, folder / RESULTS)
+        if name == "ablations":
+            found[name] = ablation_table(config, results)
+            continue
         found[f"{name}, in short"] = summary_table(config, results)
         if name == "seeds":
             found[f"{name}, beside the bars"] = ratio_table(config, results)

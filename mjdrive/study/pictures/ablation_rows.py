@@ -46,10 +46,11 @@ def ablation_groups(
     by_method: dict[str, dict[str, str]] = {}
     for name in own_arms(config):
         by_method.setdefault(methods[arms[name].variant], {})[name] = looks[name].label
-    return tuple(
+    groups = [
         tuple(_row(study, row, looks[name]) for name, row in same_seeds(study.results, labels))
         for labels in (*ablation_labels(config), *by_method.values())
-    )
+    ]
+    return tuple(group for group in groups if len(group) > 1) or tuple(groups[:1])
 
 
 def _row(study: StudyFiles, row: Row, look: Look) -> AblationRow:

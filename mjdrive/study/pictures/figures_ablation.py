@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from textwrap import fill
 
 import matplotlib.style
 from matplotlib.figure import Figure
@@ -11,6 +12,12 @@ from matplotlib.ticker import MaxNLocator
 from mjdrive.evaluation.bootstrap import Interval
 from mjdrive.picture_style import STYLE, save
 from mjdrive.study.pictures.figure_looks import GRID, INK
+
+LABEL_WIDTH = 42
+"""Letters in a line of the label of a row; longer labels have several lines."""
+
+TITLE_WIDTH = 14
+"""Letters in a line of the title of a figure."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +47,7 @@ def draw_ablation(
     """
     rows = sum(len(group) for group in groups)
     with matplotlib.style.context(["default", STYLE]):
-        size = (9.5, 0.8 + 0.27 * rows + 0.25 * len(groups))
+        size = (9.5, 1.0 + 0.31 * rows + 0.25 * len(groups))
         figure = Figure(figsize=size, layout="constrained")
         grid = figure.subplots(1, len(columns), sharey=True, squeeze=False)[0]
         places = _places(groups)
@@ -54,7 +61,7 @@ def draw_ablation(
                     if found is not None:
                         axes.hlines(height, found.low, found.high, color=row.colour, lw=2.2, alpha=0.45)  # fmt: skip
                         axes.plot(found.value, height, "o", color=row.colour, ms=4.5)
-            axes.set_title(column, fontsize=8.5)
+            axes.set_title(fill(column, TITLE_WIDTH), fontsize=8.5)
             axes.grid(axis="x", color=GRID, linewidth=0.6)
             axes.tick_params(axis="y", length=0)
             axes.tick_params(axis="x", labelsize=7.5)
@@ -62,7 +69,7 @@ def draw_ablation(
             axes.xaxis.set_major_locator(MaxNLocator(nbins=3))
             axes.spines["left"].set_visible(False)
         every = [row for group in groups for row in group]
-        grid[0].set_yticks([height for heights in places for height in heights], [it.label for it in every])  # fmt: skip
+        grid[0].set_yticks([height for heights in places for height in heights], [fill(it.label, LABEL_WIDTH) for it in every])  # fmt: skip
         firsts = {id(group[0]) for group in groups}
         for text, row in zip(grid[0].get_yticklabels(), every, strict=True):
             text.set_fontweight("bold" if id(row) in firsts else "normal")
