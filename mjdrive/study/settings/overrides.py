@@ -5,7 +5,8 @@ import json
 from collections.abc import Iterable, Sequence
 
 from mjdrive import config
-from mjdrive.config import StudyConfig, Variant
+from mjdrive.config import Arm, StudyConfig, Variant
+from mjdrive.config.study import names_of
 from mjdrive.errors import ConfigError, UnknownNameError
 from mjdrive.study.settings import presets
 
@@ -43,9 +44,9 @@ def chosen(
     """
     study = presets.preset(preset, methods=methods)
     if not ablations:
-        study = presets.without_ablations(study)
+        study = _without_ablations(study)
     if arms is not None:
-        study = presets.with_arms(study, arms)
+        study = _with_arms(study, arms)
     numbers = {"episodes": episodes, "steps": steps, "seeds": seeds}
     values: dict[str, object] = {name: it for name, it in numbers.items() if it is not None}
     for assignment in assignments:
@@ -61,9 +62,52 @@ def chosen(
     wanted = values.get("seeds")
     if isinstance(wanted, Sequence) and not isinstance(wanted, str):
         values = _some_of(study, wanted) | values
-        study = presets.with_all_seeds(study)
+        study = _with_all_seeds(study)
     plain = json.loads(config.to_json(study)) | values
     return config.from_dict(StudyConfig, plain)
+
+
+def _without_ablations(config: StudyConfig) -> StudyConfig:
+    """The same study of the methods alone."""
+    methods = {it.name for it in config.variants if not it.change}
+    kept = [it for it in config.arms if it.variant in methods and not it.change]
+    return _acting_in(config, kept)
+
+
+def _with_all_seeds(config: StudyConfig) -> StudyConfig:
+    """The same study with an agent for each method and seed."""
+    variants = tuple(dataclasses.replace(it, all_seeds=True) for it in config.variants)
+    return dataclasses.replace(config, variants=variants)
+
+
+def _with_arms(config: StudyConfig, names: Sequence[str]) -> StudyConfig:
+    """The same study of some ways to act; what acts in none of them is not trained.
+
+    Args:
+        config: The study.
+        names: Of the arms that are kept.
+
+    Raises:
+        UnknownNameError: If it has no such arm.
+    """
+    known = names_of(config.arms)
+    for name in names:
+        if name not in known:
+            raise UnknownNameError("arm of this study", name, known)
+    return _acting_in(config, [it for it in config.arms if it.name in names])
+
+
+def _acting_in(config: StudyConfig, arms: Sequence[Arm]) -> StudyConfig:
+    """The same study with some of its arms, and what they need."""
+    acting = {it.variant for it in arms}
+    variants = tuple(it for it in config.variants if it.name in acting)
+    learnt = {it.demonstrations for it in variants}
+    return dataclasses.replace(
+        config,
+        variants=variants,
+        arms=tuple(arms),
+        demonstrations=tuple(it for it in config.demonstrations if it.name in learnt),
+    )
 
 
 def _some_of(study: StudyConfig, seeds: Sequence[int]) -> dict[str, object]:

@@ -1,10 +1,8 @@
 """Named studies: `quick` takes minutes, `standard` a night on two cores, `paper` has the settings of the paper throughout."""
 
-import dataclasses
 from collections.abc import Callable, Sequence
 
 from mjdrive.config import Arm, Demonstrations, StudyConfig, Variant
-from mjdrive.config.study import names_of
 from mjdrive.errors import UnknownNameError
 from mjdrive.study.settings.ablations import (
     ABLATED_DEMONSTRATIONS,
@@ -207,46 +205,3 @@ def preset(name: str, *, methods: Sequence[str] | None = None) -> StudyConfig:
         if method not in METHODS:
             raise UnknownNameError("method", method, METHODS)
     return PRESETS[name](methods)
-
-
-def without_ablations(config: StudyConfig) -> StudyConfig:
-    """The same study of the methods alone."""
-    methods = {it.name for it in config.variants if not it.change}
-    kept = [it for it in config.arms if it.variant in methods and not it.change]
-    return _with(config, kept)
-
-
-def with_all_seeds(config: StudyConfig) -> StudyConfig:
-    """The same study with an agent for each method and seed."""
-    variants = tuple(dataclasses.replace(it, all_seeds=True) for it in config.variants)
-    return dataclasses.replace(config, variants=variants)
-
-
-def with_arms(config: StudyConfig, names: Sequence[str]) -> StudyConfig:
-    """The same study of some ways to act; what acts in none of them is not trained.
-
-    Args:
-        config: The study.
-        names: Of the arms that are kept.
-
-    Raises:
-        UnknownNameError: If it has no such arm.
-    """
-    known = names_of(config.arms)
-    for name in names:
-        if name not in known:
-            raise UnknownNameError("arm of this study", name, known)
-    return _with(config, [it for it in config.arms if it.name in names])
-
-
-def _with(config: StudyConfig, arms: Sequence[Arm]) -> StudyConfig:
-    """The same study with some of its arms, and what they need."""
-    acting = {it.variant for it in arms}
-    variants = tuple(it for it in config.variants if it.name in acting)
-    learnt = {it.demonstrations for it in variants}
-    return dataclasses.replace(
-        config,
-        variants=variants,
-        arms=tuple(arms),
-        demonstrations=tuple(it for it in config.demonstrations if it.name in learnt),
-    )
