@@ -15,7 +15,7 @@ from mjdrive.study.tables.summary_table import summary_columns
 
 
 def ablation_table(config: StudyConfig, found: StudyResults) -> str:
-    """Single changes, each group below what it changes, in bold; all of a group are by the same training seeds.
+    """Single changes, each group below what it changes; all of a group are by the same training seeds.
 
     Args:
         config: Settings of the study.
@@ -27,11 +27,11 @@ def ablation_table(config: StudyConfig, found: StudyResults) -> str:
         ("mode precision", lambda row: agent_cell(row, mode_precision)),
         ("held-out log-likelihood at junctions [nats]", lambda row: agent_cell(row, junction_gain)),
     )
-    body = []
-    for labels in ablation_labels(config):
-        for index, (_, row) in enumerate(same_seeds(found, labels)):
-            label = row.label if index else f"**{row.label}**"
-            body.append([label, *(show(row) for _, show in columns)])
+    body = [
+        [row.label, *(show(row) for _, show in columns)]
+        for labels in ablation_labels(config)
+        for _, row in same_seeds(found, labels)
+    ]
     if not body:
         return "This study has no ablations.\n"
     return markdown(["", *(title for title, _ in columns)], body)
