@@ -9,6 +9,9 @@ from models.convolutions import FLAT_SIZE, Convolutions
 
 HIDDEN_SIZE = 256
 
+_LIGHTS_NOW = (0, 1, 4, 4, 4)
+"""Channels of a view whose lights have no history: road, lane lines, and three times the newest lights, which come last."""
+
 
 def draw_dropout(
     num_observations: int, probability: float, *, generator: torch.Generator
@@ -61,6 +64,7 @@ class Encoder(nn.Module):
 
     def __init__(self, config: NetworkConfig) -> None:
         super().__init__()
+        self._sees_light_history = config.light_history
         self.image = Convolutions()
         self.state = nn.Sequential(
             nn.Linear(len(STATE_INPUTS), HIDDEN_SIZE),
@@ -101,5 +105,7 @@ class Encoder(nn.Module):
             if torch.is_autocast_enabled(device)
             else self.state_scale.dtype
         )
+        if not self._sees_light_history:
+            bev = bev[:, _LIGHTS_NOW]
         image = self.projection(self.image(bev, dtype))  # (B, 1024) or (B, 256)
         return self.joint(torch.cat((image, self.state(state * self.state_scale)), dim=1))

@@ -5,11 +5,14 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
+
 from mjdrive.config import read_json, write_json
 from mjdrive.episodes import dataset
 from mjdrive.errors import RunError
 from mjdrive.learning import runs
 from mjdrive.learning.batches import EpisodeDemonstrations, Views, demonstrations_of
+from mjdrive.learning.perturbation import perturb
 from mjdrive.town import library
 from mjdrive.vehicle.cars import DEFAULT
 from mjdrive.versions import versions
@@ -21,6 +24,9 @@ from models.hardware import choose_device
 from models.learners import build_learner
 from models.progress import EpochReport, StepReport
 from models.training import fit
+
+_PERTURBATION_STREAM = 1
+"""Sets chance of poses apart from all other of a run."""
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -123,7 +129,7 @@ def train(
             on_note(precision.in_words(config, device=place, resumes=resume))
         agreement.require_shares(team, config.optimiser.batch_size)
         with distributed.joined(team, place):
-            demonstrations, source = _read(data, views, on_frame)
+            demonstrations, source = _read(data, views, config, seed, on_frame)
             if resume:
                 source.require_same(read_json(Source, run / runs.SOURCE), run)
             return fit(
@@ -151,10 +157,17 @@ def _begin(run: Path, source: Source, *, replaces: bool) -> None:
 
 
 def _read(
-    data: Path, views: Views, on_frame: Callable[[int, int], None] | None
+    data: Path,
+    views: Views,
+    config: LearnerConfig,
+    seed: int,
+    on_frame: Callable[[int, int], None] | None,
 ) -> tuple[EpisodeDemonstrations, Source]:
-    """Read a data set and make ready what the expert saw."""
+    """Read a data set and make ready what the expert saw, or would have seen from beside."""
     manifest, episodes = dataset.read_dataset(data)
+    if config.perturbation.share > 0:
+        rng = np.random.default_rng([seed, _PERTURBATION_STREAM])
+        episodes = [perturb(episode, config.perturbation, rng) for episode in episodes]
     total = sum(entry.steps for entry in manifest.episodes)
     demonstrations = demonstrations_of(
         episodes,

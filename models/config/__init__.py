@@ -10,6 +10,7 @@ from models.config.langevin import ChainConfig, LangevinConfig, LangevinNegative
 from models.config.learner import METHODS, LearnerConfig, Method
 from models.config.network import STATE_INPUTS, NetworkConfig, StateInput
 from models.config.optimiser import OptimiserConfig
+from models.config.perturbation import PerturbationConfig
 from models.config.samplers import Choice, DfoConfig, GridConfig, Precision, SamplerConfig, Undo
 
 __all__ = [
@@ -36,6 +37,7 @@ __all__ = [
     "NegativesConfig",
     "NetworkConfig",
     "OptimiserConfig",
+    "PerturbationConfig",
     "Precision",
     "SamplerConfig",
     "Start",

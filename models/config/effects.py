@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from models.config.commitment import CommitmentConfig
 from models.config.learner import LearnerConfig, Method
 
-_SHARED = ("method", "network.", "density.", "evenness.", "optimiser.")
+_SHARED = ("method", "network.", "density.", "evenness.", "perturbation.", "optimiser.")
 
 _ENERGY = ("negatives.", "sampler.", "commitment.")
 
@@ -36,6 +36,8 @@ def is_idle(name: str, config: LearnerConfig) -> bool:
         others = (*others, "commitment.")
     if config.commitment.hold == 0:
         others = (*others, "denoiser.candidates")
+    if config.perturbation.share == 0:
+        others = (*others, "perturbation.offset", "perturbation.heading")
     return not name.startswith(settings_of(config.method)) or name.startswith(others)
 
 

@@ -12,6 +12,7 @@ from models.config.implicit import DensityConfig, NegativesConfig
 from models.config.langevin import LangevinNegativesConfig
 from models.config.network import NetworkConfig
 from models.config.optimiser import OptimiserConfig
+from models.config.perturbation import PerturbationConfig
 from models.config.samplers import SamplerConfig
 from models.config.undoing import require_undoable
 
@@ -39,6 +40,7 @@ class LearnerConfig:
         langevin_negatives: Chains and gradient penalty of Langevin IBC.
         density: Kernel density estimate and what it weighs.
         evenness: How evenly training draws what was seen.
+        perturbation: From where demonstrations are seen.
         sampler: How IBC and DA-IBC choose actions.
         commitment: How long the chance of steering lasts, where actions are sampled from a density, in closed form, on a grid or estimated from many draws.
         optimiser: How the loss is descended on.
@@ -58,6 +60,7 @@ class LearnerConfig:
     )
     density: DensityConfig = dataclasses.field(default_factory=DensityConfig)
     evenness: EvennessConfig = dataclasses.field(default_factory=EvennessConfig)
+    perturbation: PerturbationConfig = dataclasses.field(default_factory=PerturbationConfig)
     sampler: SamplerConfig = dataclasses.field(default_factory=SamplerConfig)
     commitment: CommitmentConfig = dataclasses.field(default_factory=CommitmentConfig)
     optimiser: OptimiserConfig = dataclasses.field(default_factory=OptimiserConfig)

@@ -16,6 +16,7 @@ class NetworkConfig:
 
     Attributes:
         fusion: "roach" joins 1024 picture features and 256 state features in two layers to 256; "separate" brings each to 256 and joins nothing.
+        light_history: Whether the lights of 0.8 s and 1.5 s ago are seen; if not, their channels show those of now once more.
         state_inputs: Which components of the state are seen; the others are zero.
         state_dropout: Chance of a training pair to lose its previous action [-].
         speed_scale: Speed that is fed in as 1 [m/s].
@@ -23,6 +24,7 @@ class NetworkConfig:
     """
 
     fusion: Literal["roach", "separate"] = "roach"
+    light_history: bool = True
     state_inputs: tuple[StateInput, ...] = STATE_INPUTS
     state_dropout: float = 0.0
     speed_scale: float = 1.0

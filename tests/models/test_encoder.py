@@ -34,6 +34,18 @@ def test_excluded_state_inputs_change_nothing(batch):
     assert not torch.equal(encoder(batch.bev, other), features)
 
 
+def test_lights_of_before_change_nothing_where_no_history_is_seen(batch):
+    blind, seeing = Encoder(NetworkConfig(light_history=False)), Encoder(NetworkConfig())
+    seeing.load_state_dict(blind.state_dict())
+    other = batch.bev.clone()
+    other[:, 2:4] = 255 - other[:, 2:4]
+    features = blind(batch.bev, batch.state)
+    torch.testing.assert_close(blind(other, batch.state), features, rtol=0, atol=0)
+    assert not torch.equal(seeing(other, batch.state), seeing(batch.bev, batch.state))
+    other[:, 4] = 255 - other[:, 4]
+    assert not torch.equal(blind(other, batch.state), features)
+
+
 def test_speed_is_fed_in_as_a_share_of_its_scale(batch):
     scaled, plain = Encoder(NetworkConfig(speed_scale=10.0)), Encoder(NetworkConfig())
     plain.load_state_dict(scaled.state_dict())

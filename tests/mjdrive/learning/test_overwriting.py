@@ -35,7 +35,7 @@ def train(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Train:
     """Trains on four pairs into a folder that holds a run already."""
     pairs = carried.demonstrations(4)
     source = training.Source("town01", "0123", len(pairs), {})
-    monkeypatch.setattr(training, "_read", lambda data, views, on_frame: (pairs, source))
+    monkeypatch.setattr(training, "_read", lambda *_: (pairs, source))
 
     def start(*, seed: int = 0, overwrite: bool = False, team: Team = ALONE) -> None:
         training.train(
