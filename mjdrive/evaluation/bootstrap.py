@@ -1,19 +1,23 @@
 """How sure a mean over training seeds and episodes is.
 
+Means and rates only, no interquartile mean: what that cuts off are the few drives in which something was hit, and those
+are what is counted here.
+
 Reference:
     Agarwal et al., Deep Reinforcement Learning at the Edge of the Statistical Precipice, NeurIPS 2021: bootstrap over
-    runs, and the interquartile mean, which a few odd runs do not move. There each task has runs of its own; here one
-    trained policy drives every episode, so what is drawn anew is whole runs.
+    runs. There each task has runs of its own; here one trained policy drives every episode, so what is drawn anew is
+    whole runs.
 """
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Int
 
-Statistic = Callable[[np.ndarray], np.ndarray]
-"""Figures of shape (..., S, E) to one figure for each table of seeds and episodes, shape (...)."""
+Statistic = Callable[..., np.ndarray]
+"""Figures, each of shape (..., S, E), to one for each table of seeds and episodes, shape (...)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,16 +45,22 @@ def mean(figures: Float[np.ndarray, "*B S E"]) -> Float[np.ndarray, "*B"]:
     return np.asarray(figures.mean(axis=(-2, -1)))
 
 
-def interquartile_mean(figures: Float[np.ndarray, "*B S E"]) -> Float[np.ndarray, "*B"]:
-    """Mean of the middle half of all figures; a quarter of them is cut off at each end."""
-    flat = np.sort(figures.reshape(*figures.shape[:-2], -1), axis=-1)
-    cut = flat.shape[-1] // 4
-    return np.asarray(flat[..., cut : flat.shape[-1] - cut].mean(axis=-1))
+def total(figures: Float[np.ndarray, "*B S E"]) -> Float[np.ndarray, "*B"]:
+    """Sum over episodes, mean over seeds."""
+    return np.asarray(figures.sum(axis=-1).mean(axis=-1))
+
+
+def rate(
+    above: Float[np.ndarray, "*B S E"], below: Float[np.ndarray, "*B S E"]
+) -> Float[np.ndarray, "*B"]:
+    """Sum of one figure over that of another, both over seeds and episodes; NaN where the other is nothing."""
+    divisor = below.sum(axis=(-2, -1))
+    nothing = np.full(np.shape(divisor), np.nan)
+    return np.divide(above.sum(axis=(-2, -1)), divisor, out=nothing, where=divisor > 0)
 
 
 def interval(
-    figures: Float[np.ndarray, "S E"],
-    *,
+    *figures: Float[np.ndarray, "S E"],
     rng: np.random.Generator,
     statistic: Statistic = mean,
     level: float = 0.95,
@@ -61,20 +71,23 @@ def interval(
     In each draw whole seeds are drawn with replacement, and episodes likewise, the same ones for all seeds: what a seed
     has learnt shows in all of its episodes, and a hard start in the episodes of all seeds, so neither is independent
     evidence. With three to five seeds such intervals are still too narrow (tests/mjdrive/evaluation/test_bootstrap.py
-    says by how much); with one they say nothing of training.
+    says by how much); with one they say nothing of training. What never happened has the interval [0, 0], as what is drawn is
+    only what was seen.
 
     Args:
-        figures: One figure for each training seed and episode, in any unit; all seeds drive from the same starts.
+        *figures: One for each training seed and episode, in any unit; all seeds drive from the same starts. Of several,
+            as those of a rate, each draw takes the same seeds and episodes.
         rng: Source of the draws.
         statistic: What is made of them.
         level: Share of the draws inside the interval [-].
         num_draws: How many [-].
 
     Returns:
-        The figure and its percentile interval.
+        The figure and its percentile interval; draws of which the statistic makes NaN are left out, and all is NaN if it
+        makes that of the figures themselves.
     """
-    drawn = statistic(_drawn(figures, _episodes(figures, rng, num_draws), rng))
-    return _interval(float(statistic(figures)), drawn, level)
+    drawn = _drawn(figures, _episodes(figures[0], rng, num_draws), rng)
+    return _interval(float(statistic(*figures)), statistic(*drawn), level)
 
 
 def ratio_interval(
@@ -103,9 +116,9 @@ def ratio_interval(
     """
     episodes = _episodes(figures, rng, num_draws)
     is_paired = figures.shape[1] == reference.shape[1]
-    above = statistic(_drawn(figures, episodes, rng))
+    above = statistic(*_drawn((figures,), episodes, rng))
     others = episodes if is_paired else _episodes(reference, rng, num_draws)
-    below = statistic(_drawn(reference, others, rng))
+    below = statistic(*_drawn((reference,), others, rng))
     return _interval(float(statistic(figures) / statistic(reference)), above / below, level)
 
 
@@ -118,14 +131,18 @@ def _episodes(
 
 
 def _drawn(
-    figures: Float[np.ndarray, "S E"], episodes: Int[np.ndarray, "D 1 E"], rng: np.random.Generator
-) -> Float[np.ndarray, "D S E"]:
+    figures: Sequence[Float[np.ndarray, "S E"]],
+    episodes: Int[np.ndarray, "D 1 E"],
+    rng: np.random.Generator,
+) -> list[Float[np.ndarray, "D S E"]]:
     """Draw seeds with replacement, and take the episodes that were drawn."""
-    num_seeds = len(figures)
+    num_seeds = len(figures[0])
     seeds = rng.integers(num_seeds, size=(len(episodes), num_seeds, 1))
-    return figures[seeds, episodes]
+    return [it[seeds, episodes] for it in figures]
 
 
 def _interval(value: float, drawn: Float[np.ndarray, " D"], level: float) -> Interval:
-    low, high = np.quantile(drawn, [(1 - level) / 2, (1 + level) / 2])
+    if math.isnan(value):
+        return Interval(value, value, value)
+    low, high = np.quantile(drawn[~np.isnan(drawn)], [(1 - level) / 2, (1 + level) / 2])
     return Interval(value, float(low), float(high))

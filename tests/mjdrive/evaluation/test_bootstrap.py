@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mjdrive.evaluation.bootstrap import interquartile_mean, interval, mean, ratio_interval
+from mjdrive.evaluation.bootstrap import interval, mean, rate, ratio_interval, total
 
 
 @pytest.mark.parametrize(("num_seeds", "least"), [(3, 0.68), (5, 0.78), (20, 0.9)])
@@ -42,12 +42,44 @@ def test_single_seed_is_drawn_by_its_episodes() -> None:
     assert found.high > 80.0
 
 
-def test_middle_half_is_not_moved_by_one_odd_run() -> None:
-    figures = np.arange(8.0).reshape(2, 4)
-    odd = figures.copy()
-    odd[1, 3] = 1e6
-    assert interquartile_mean(figures) == interquartile_mean(odd) == 3.5
-    assert mean(odd) > 1e5
+def test_a_rate_is_a_sum_over_a_sum() -> None:
+    above, below = np.array([[1.0, 0.0], [3.0, 0.0]]), np.array([[1.0, 1.0], [5.0, 1.0]])
+    assert float(rate(above, below)) == 0.5
+    assert np.isnan(rate(above, np.zeros((2, 2))))
+
+
+def test_a_sum_over_episodes_is_the_mean_of_seeds() -> None:
+    assert float(total(np.array([[1.0, 2.0], [3.0, 4.0]]))) == 5.0
+
+
+def test_both_figures_of_a_rate_are_drawn_alike() -> None:
+    below = np.random.default_rng(2).uniform(1.0, 9.0, size=(3, 10))
+    found = interval(0.25 * below, below, rng=np.random.default_rng(0), statistic=rate)
+    assert (found.value, found.low, found.high) == pytest.approx((0.25, 0.25, 0.25))
+
+
+def test_what_happened_as_often_to_each_seed_is_a_matter_of_drives_yet() -> None:
+    hits = np.zeros((3, 10))
+    hits[[0, 1, 2], [0, 4, 7]] = 2.0
+    found = interval(hits, rng=np.random.default_rng(0), statistic=total)
+    assert found.value == 2.0
+    assert found.low < 1.0
+    assert found.high > 3.0
+
+
+def test_rare_events_of_one_seed_are_drawn_by_its_drives() -> None:
+    hits = np.array([[1.0] + [0.0] * 9])
+    found = interval(hits, rng=np.random.default_rng(0), statistic=total, num_draws=20_000)
+    draws = np.random.default_rng(3).binomial(10, 0.1, size=20_000)
+    assert (found.low, found.high) == tuple(np.quantile(draws, [0.025, 0.975])) == (0.0, 3.0)
+
+
+def test_draws_without_a_divisor_are_left_out() -> None:
+    above, below = np.array([[1.0, 0.0, 0.0]]), np.array([[2.0, 0.0, 0.0]])
+    found = interval(above, below, rng=np.random.default_rng(0), statistic=rate)
+    assert (found.value, found.low, found.high) == (0.5, 0.5, 0.5)
+    nothing = interval(above, 0 * below, rng=np.random.default_rng(0), statistic=rate)
+    assert np.isnan([nothing.value, nothing.low, nothing.high]).all()
 
 
 def test_interval_says_what_a_table_shows() -> None:
@@ -70,9 +102,13 @@ def test_same_seed_gives_the_same_interval(seed: int) -> None:
 
 def test_draws_of_a_batch_are_judged_one_by_one() -> None:
     batch = np.random.default_rng(0).normal(size=(4, 3, 5))
-    for statistic in (mean, interquartile_mean):
+    for statistic in (mean, total):
         np.testing.assert_allclose(statistic(batch), [float(statistic(it)) for it in batch])
-        assert float(statistic(np.full((3, 5), 2.0))) == pytest.approx(2.0)
+    assert float(mean(np.full((3, 5), 2.0))) == pytest.approx(2.0)
+    assert float(total(np.full((3, 5), 2.0))) == pytest.approx(10.0)
+    sizes = 1.0 + batch**2
+    expected = [float(rate(a, b)) for a, b in zip(batch, sizes, strict=True)]
+    np.testing.assert_allclose(rate(batch, sizes), expected)
 
 
 def test_a_ratio_holds_the_chance_of_both_where_they_share_no_starts() -> None:
