@@ -18,13 +18,15 @@ export class Cameras {
   private readonly want = new THREE.Vector3();
   private isSettled = false;
 
-  constructor(canvas: HTMLElement) {
+  /** Calls back whenever who looks turns the orbit camera. */
+  constructor(canvas: HTMLElement, onTurn: () => void) {
     this.camera.up.set(0, 0, 1);
     this.orbit = new OrbitControls(this.camera, canvas);
     this.orbit.enabled = false;
     this.orbit.maxPolarAngle = 1.5;
     this.orbit.minDistance = 3;
     this.orbit.maxDistance = 400;
+    this.orbit.addEventListener("change", onTurn);
   }
 
   choose(name: CameraName): void {

@@ -1,4 +1,4 @@
-// The 3D view: sixty pictures a second whatever the server's rate, poses between the last two that came.
+// The 3D view: sixty pictures a second whatever the server's rate, poses between the last two that came; none where nothing moves.
 import * as THREE from "three";
 import { Cameras, type CameraName } from "./cameras";
 import type { Message } from "./codec";
@@ -8,6 +8,7 @@ const SKY = 0xc3d6e6;
 const NUMBERS = 7; // of a pose: position, quaternion
 const SLOW_MS = 45;
 const LONGEST_GAP_MS = 250;
+const SETTLED_MS = 2000; // the chase camera has come to rest by then
 
 export class View {
   town?: TownScene;
@@ -23,6 +24,7 @@ export class View {
   private last = 0;
   private cost = 16;
   private restUntil = 0;
+  private touchedAt = 0;
 
   /** Throws where there is no WebGL. */
   constructor(private readonly canvas: HTMLCanvasElement, antialias: boolean) {
@@ -30,7 +32,7 @@ export class View {
     if (!context) throw new Error("There is no WebGL here.");
     this.renderer = new THREE.WebGLRenderer({ canvas, context });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.cameras = new Cameras(canvas);
+    this.cameras = new Cameras(canvas, this.touch);
     this.scene.background = new THREE.Color(SKY);
     this.scene.fog = new THREE.Fog(SKY, 120, 420);
     this.scene.add(new THREE.HemisphereLight(0xf4f8ff, 0x8a8a70, 1.9));
@@ -45,9 +47,10 @@ export class View {
     this.town = new TownScene(message);
     this.scene.add(this.town.group);
     this.before = this.now = null;
+    this.touch();
   }
 
-  choose(camera: CameraName): void { this.cameras.choose(camera); }
+  choose(camera: CameraName): void { this.cameras.choose(camera); this.touch(); }
 
   setPose(poses: Float32Array, jump = false): void {
     const time = performance.now(), gap = time - this.cameAt;
@@ -55,15 +58,20 @@ export class View {
     this.cameAt = time;
     this.before = jump || !this.now || far(this.now, poses) ? poses : this.now;
     this.now = poses;
+    this.touch();
   }
+
+  private touch = (): void => { this.touchedAt = performance.now(); };
 
   private frame = (time: number): void => {
     requestAnimationFrame(this.frame);
     const gap = time - this.last;
     this.last = time;
-    if (time < this.restUntil || document.hidden || !this.canvas.clientWidth) return;
+    if (document.hidden || !this.canvas.clientWidth) return this.touch(); // what changes meanwhile is drawn later
+    if (time < this.restUntil) return;
     this.giveUpPixelsBeforeMessages(gap, time);
     this.fit();
+    if (time > this.touchedAt + SETTLED_MS) return;
     const car = this.town?.bodies[0];
     if (this.now && car) { this.place(); this.cameras.follow(car, gap); }
     this.renderer.render(this.scene, this.cameras.camera);
@@ -85,6 +93,7 @@ export class View {
     this.renderer.setSize(width, height, false);
     camera.aspect = width / Math.max(height, 1);
     camera.updateProjectionMatrix();
+    this.touch();
   }
 
   private place(): void {

@@ -148,6 +148,25 @@ def test_the_town_is_shown_in_3d_with_the_car_where_it_was(
     shown.until(is_there, "the car at step 9")
 
 
+def test_nothing_is_drawn_while_it_stands_still(shown_in_3d: Shown) -> None:
+    shown = shown_in_3d
+    drawn: list[int] = [0]
+
+    def rests() -> bool:
+        before, drawn[0] = drawn[0], shown.page.evaluate("mjdrive.live.view.rendered")
+        shown.page.wait_for_timeout(700)
+        return before == drawn[0] > 0
+
+    shown.until(rests, "rest")
+    for wake in (
+        lambda: shown.scrubber.fill("5"),
+        lambda: shown.page.set_viewport_size({"width": 1000, "height": 700}),
+    ):
+        wake()
+        shown.until(lambda: shown.page.evaluate("mjdrive.live.view.rendered") > drawn[0], "more")
+        shown.until(rests, "rest")
+
+
 def test_an_infraction_has_its_mark_and_leads_there(shown: Shown, breach: Infraction) -> None:
     mark = shown.page.locator("#replay .marks button")
     assert breach.cause in str(mark.get_attribute("title"))
