@@ -22,7 +22,7 @@ STUDIES = Path("studies")
     default="standard",
     show_default=True,
     metavar="quick|standard|paper",
-    help="Minutes (quick), a night on two cores (standard), or the paper's settings throughout (paper, weeks).",
+    help="Minutes (quick), a night on two cores (standard), or the paper's settings throughout (paper, about six days).",
 )
 @click.option(
     "--methods",

@@ -12,7 +12,7 @@ from mjdrive.config.settings import (
     RulesConfig,
     SimulationConfig,
 )
-from mjdrive.config.study import Arm, Demonstrations, Reference, StudyConfig, Variant
+from mjdrive.config.study import Arm, Demonstrations, Draws, Reference, StudyConfig, Variant
 from mjdrive.config.tuning import TuneConfig
 
 __all__ = [
@@ -22,6 +22,7 @@ __all__ = [
     "CollectConfig",
     "Demonstrations",
     "DisturbanceConfig",
+    "Draws",
     "EnvConfig",
     "ExpertName",
     "ExtraLayer",

@@ -11,6 +11,9 @@ from mjdrive.config.json_files import require
 Reference = Literal["expert", "right-walker"]
 """Who drives beside the agents: the PID expert on a random walk, or one that takes the rightmost exit everywhere."""
 
+Draws = Literal["dfo", "own"]
+"""Whose draws landscapes show: the paper's search on energies and else a policy's own, or a policy's own throughout."""
+
 _NAME = re.compile(r"[a-z0-9][a-z0-9.-]*")
 
 
@@ -44,6 +47,7 @@ class Variant:
         change: What sets an ablation apart, in words; empty for a method of the study itself.
         base: Name of the variant that an ablation changes; that whose name is its method if empty.
         all_seeds: Whether it is trained with all seeds, or with `StudyConfig.detail_seeds` alone; an ablation has seeds of its own.
+        like_methods: Whether an ablation has the training seeds, long drives and landscapes of a method all the same.
     """
 
     name: str
@@ -54,6 +58,7 @@ class Variant:
     change: str = ""
     base: str = ""
     all_seeds: bool = True
+    like_methods: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +73,7 @@ class Arm:
         change: What sets an ablation apart, in words; empty for an arm of the study itself.
         all_seeds: Whether the agents of all training seeds act so, or those of `StudyConfig.detail_seeds` alone.
         is_long: Whether it makes the long drive though it is not the main arm, which always does.
+        as_ablation: What it changes, in words, for a row among the ablations beside those of the other tables; empty for none of its own.
     """
 
     name: str
@@ -77,6 +83,7 @@ class Arm:
     change: str = ""
     all_seeds: bool = True
     is_long: bool = False
+    as_ablation: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,6 +107,7 @@ class StudyConfig:
         steps: Control steps of each of them [-].
         long_steps: Control steps of one more drive of each main arm and each `Arm.is_long`, for its path and what it sees in time; 0 for none [-].
         detail_seeds: Training seeds, some of `seeds`, whose agents make it, and whose landscapes and turns are kept [-].
+        landscape_draws: Whose draws the landscapes show: "dfo" lets energies be searched as the paper does, "own" is as the arm draws.
         progress_every: Epochs between two checkpoints that drive, for the progress of training; 0 for none [-].
         progress_episodes: Drives of each such checkpoint [-].
         progress_steps: Control steps of each of them [-].
@@ -125,6 +133,7 @@ class StudyConfig:
     steps: int = 3000
     long_steps: int = 30_000
     detail_seeds: tuple[int, ...] = (0,)
+    landscape_draws: Draws = "dfo"
     progress_every: int = 2
     progress_episodes: int = 2
     progress_steps: int = 1000

@@ -160,7 +160,8 @@ def _plan_arm(
     it: ArmAgent, config: StudyConfig, folder: StudyFolder, who: Who, approaches: tuple[str, ...]
 ) -> ArmPlan:
     seed = it.agent.seed
-    is_detailed = not it.agent.variant.change and seed in config.detail_seeds
+    variant = it.agent.variant
+    is_detailed = (not variant.change or variant.like_methods) and seed in config.detail_seeds
     is_shown = it.is_main and is_detailed
     is_long = is_shown or (it.arm.is_long and is_detailed)
     forks = tuple(
@@ -179,10 +180,11 @@ def _plan_arm(
     judge = JudgeJob(
         who=who,
         arm=it.arm.name,
-        variant=it.agent.variant.name,
+        variant=variant.name,
         agent_seed=seed,
         file=folder.judged(who.name),
         landscapes=folder.path / results.LANDSCAPES if is_shown else None,
+        draws=config.landscape_draws,
         seed=config.seed,
     )
     return ArmPlan(

@@ -139,14 +139,20 @@ def live_forks(
 
 
 def read_record(job: ForkJob) -> ForkRecord | None:
-    """What became of a moment; None if it is still to be lived, or was lived with other weights."""
+    """What became of a moment; None if it is still to be lived, or was lived with other weights or without the turns that are wanted."""
     found = folder.read(ForkRecord, job.file)
     is_whole = found is not None and found.digest == job.who.digest and _has_turns(job, found)
     return found if is_whole else None
 
 
 def _has_turns(job: ForkJob, found: ForkRecord) -> bool:
-    return job.turns is None or all((job.turns.parent / it.file).is_file() for it in found.turns)
+    """Whether a drive is there through each exit that was taken safely, if turns are kept; a study that kept none left none."""
+    if job.turns is None:
+        return True
+    paths = () if found.fan is None else found.fan.paths
+    taken = {it.exit for it in paths if it.is_safe and it.exit}
+    is_kept = taken == {it.exit for it in found.turns}
+    return is_kept and all((job.turns.parent / it.file).is_file() for it in found.turns)
 
 
 def _kept(job: ForkJob, lived: Lived, town: Town) -> ForkRecord:

@@ -10,8 +10,10 @@ import numpy as np
 
 from mjdrive import config
 from mjdrive.bev.projector import BevProjector
+from mjdrive.config import Draws
 from mjdrive.datatypes import Episode
 from mjdrive.execution.work import Executor, Tell
+from mjdrive.learning.settings import acting_changed
 from mjdrive.study.jobs import landscapes
 from mjdrive.study.jobs.drivers import Who, load_learner
 from mjdrive.study.jobs.driving import Place
@@ -21,8 +23,10 @@ from mjdrive.study.records import folder
 from mjdrive.study.records.measures import LandscapeFigures, Likelihood
 from mjdrive.study.records.results import LandscapeRecord
 from mjdrive.study.records.situations import Moment, situations
+from mjdrive.study.settings.ablations import PAPERS_DFO
 from mjdrive.versions import require_same
-from models.config import density_settings
+from models.config import density_settings, settings_of
+from models.interfaces import Learner
 from models.threads import one_thread
 
 _DIGITS = 9
@@ -40,7 +44,8 @@ class JudgeJob:
         agent_seed: Its training seed [-].
         file: Where the record goes.
         landscapes: Folder for what it thinks at the moments of the pictures; None if that is not kept.
-        seed: Decides the actions that it draws there.
+        draws: Whose draws are shown there.
+        seed: Decides the actions that are drawn there.
     """
 
     who: Who
@@ -49,12 +54,20 @@ class JudgeJob:
     agent_seed: int
     file: Path
     landscapes: Path | None
+    draws: Draws
     seed: int
 
     @property
     def name(self) -> str:
         """For people."""
         return f"{self.who.name}, likelihood"
+
+    @property
+    def drawn_by(self) -> Draws:
+        """Whose draws are shown of this agent: only energies can be searched."""
+        assert self.who.settings is not None, "references do not think"
+        is_energy = "sampler." in settings_of(self.who.settings.method)
+        return self.draws if is_energy else "own"
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,14 +173,19 @@ def _density(who: Who) -> object:
 
 
 def read_record(job: JudgeJob) -> JudgeRecord | None:
-    """What an agent thinks; None if it has not been asked yet, or had other weights."""
+    """What an agent thinks; None if it has not been asked yet, had other weights, or its landscapes are wanted and not there."""
     found = folder.read(JudgeRecord, job.file)
-    if found is None or found.digest != job.who.digest:
-        return None
-    is_whole = job.landscapes is None or all(
-        folder.is_written(LandscapeRecord, job.landscapes / name) for name in found.landscapes
-    )
+    is_whole = found is not None and found.digest == job.who.digest and _has_landscapes(job, found)
     return found if is_whole else None
+
+
+def _has_landscapes(job: JudgeJob, found: JudgeRecord) -> bool:
+    """Whether there are landscapes with the draws that are wanted, if any are kept; a study that kept none named none."""
+    if job.landscapes is None:
+        return True
+    kept = [folder.read(LandscapeRecord, job.landscapes / name) for name in found.landscapes]
+    is_drawn = all(it is not None and it.drawn_by == job.drawn_by for it in kept)
+    return bool(kept) and is_drawn
 
 
 def _kept(job: JudgeJob, judged: Judged) -> JudgeRecord:
@@ -188,7 +206,9 @@ def _ask(
     if job.landscapes is None:
         return Judged(likelihood, landscape, ())
     with one_thread():
-        seen = landscapes.measure(learner, moments, projector, seed=job.seed)
+        seen = landscapes.measure(
+            learner, moments, projector, seed=job.seed, drawer=_drawer(job, learner)
+        )
     records = tuple(
         LandscapeRecord(
             arm=job.arm,
@@ -198,7 +218,17 @@ def _ask(
             points=len(it.probabilities),
             probabilities=tuple(np.round(it.probabilities.ravel(), _DIGITS).tolist()),
             draws=tuple((round(a, 6), round(s, 6)) for a, s in it.draws.tolist()),
+            drawn_by=job.drawn_by,
         )
         for moment, it in zip(moments, seen, strict=True)
     )
     return Judged(likelihood, landscape, records)
+
+
+def _drawer(job: JudgeJob, learner: Learner) -> Learner:
+    """Who draws the actions of the landscapes: the agent as it acts, or the same energy searched as the paper does."""
+    if job.drawn_by == "own":
+        return learner
+    assert job.who.settings is not None, "references do not think"
+    searched = acting_changed(job.who.settings, PAPERS_DFO)
+    return load_learner(dataclasses.replace(job.who, settings=searched)).eval()

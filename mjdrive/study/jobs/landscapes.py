@@ -32,7 +32,7 @@ class Landscape:
     Attributes:
         probabilities: Of the points of an even grid over [-1, 1] x [-1, 1], acceleration outermost; they sum to one,
             shape (A, S) [-].
-        draws: Actions that the policy chose, one after the other, shape (N, 2) [-].
+        draws: Actions that were drawn, each anew, shape (N, 2) [-].
     """
 
     probabilities: Float[np.ndarray, "A S"]
@@ -57,6 +57,7 @@ def measure(
     seed: int,
     points: int = POINTS,
     num_draws: int = NUM_DRAWS,
+    drawer: Learner | None = None,
 ) -> tuple[Landscape, ...]:
     """Ask a policy what it thinks in some situations.
 
@@ -67,12 +68,20 @@ def measure(
         seed: Decides the actions that it draws.
         points: Grid points along each action component [-].
         num_draws: Actions that are drawn at each moment [-].
+        drawer: Who draws them, such as the same network with another way to act; the policy itself if None.
 
     Returns:
         One landscape a moment.
     """
     return tuple(
-        landscape(learner, it.observe(projector), seed=seed, points=points, num_draws=num_draws)
+        landscape(
+            learner,
+            it.observe(projector),
+            seed=seed,
+            points=points,
+            num_draws=num_draws,
+            drawer=drawer,
+        )
         for it in moments
     )
 
@@ -85,6 +94,7 @@ def landscape(
     seed: int,
     points: int = POINTS,
     num_draws: int = NUM_DRAWS,
+    drawer: Learner | None = None,
 ) -> Landscape:
     """Ask a policy what it thinks of all actions, given one observation.
 
@@ -94,10 +104,12 @@ def landscape(
         seed: Decides the actions that it draws.
         points: Grid points along each action component [-].
         num_draws: How many [-].
+        drawer: Who draws them, each anew: nothing lasts from one to the next; the policy itself if None.
     """
-    bev, state = _tensors(learner, observation)
+    drawer = drawer or learner
+    bev, state = _tensors(drawer, observation)
     generator = torch.Generator(bev.device).manual_seed(seed)
-    draws = [learner.act(bev, state, generator=generator)[0] for _ in range(num_draws)]
+    draws = [drawer.act(bev, state, generator=generator)[0] for _ in range(num_draws)]
     return Landscape(
         probabilities=probabilities(learner, observation, points=points),
         draws=torch.stack(draws).double().cpu().numpy(),

@@ -53,6 +53,17 @@ def ablation_groups(
     return tuple(group for group in groups if len(group) > 1) or tuple(groups[:1])
 
 
+def reference_row(study: StudyFiles, looks: Mapping[str, Look]) -> AblationRow | None:
+    """The expert on its random walks, which all rows are compared with; None if it did not drive.
+
+    Args:
+        study: What was found.
+        looks: Of each arm and reference, by name.
+    """
+    expert = expert_row(study.results)
+    return None if expert is None else _row(study, expert, looks["expert"])
+
+
 def _row(study: StudyFiles, row: Row, look: Look) -> AblationRow:
     expert = expert_row(study.results)
     distances = row.per_drive(lambda drive: drive.distance_m)

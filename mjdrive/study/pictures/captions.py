@@ -1,4 +1,15 @@
-"""What the report writes below each picture and above each table."""
+"""What the report writes below each picture and each table."""
+
+from mjdrive.study.tables.paper_table import PRINTED_NOTE
+
+_OVER_DRIVES = (
+    "95 % bootstrap intervals over training seeds and drives, by draws of whole seeds and, for all of them, of the same "
+    "drives; one seed is drawn by its drives alone, which says nothing of training, and what never happened has [0, 0]"
+)
+_OVER_SEEDS = (
+    "intervals over training seeds alone, and none where there is one: they are figures of all drives of an agent together, "
+    "and drives drawn with some of them twice and others not at all would take fewer ways and look less even"
+)
 
 CAPTIONS = {
     "recall": (
@@ -27,9 +38,9 @@ CAPTIONS = {
         "Energy landscapes",
         "Top: what the policy sees, the car in blue, lights in the colour that they show. Below: the energy of every action, "
         "that is its negative log density above the lowest [nats], dark where the action is likely; steering runs from left "
-        "to right as in the view, acceleration upwards. The thin line is zero steering, white points are ten actions that the "
-        "policy chose, red rings are separate ways to act (5 % or more) with their probability on a 128 x 128 grid. The first "
-        "moment is the one at which a multimodal policy should see two ways.",
+        "to right as in the view, acceleration upwards. The thin line is zero steering, red rings are separate ways to act (5 % or "
+        "more) with their probability on a 128 x 128 grid, white points are {draws}. The first moment is the one at which a "
+        "multimodal policy should see two ways.",
     ),
     "fans": (
         "One moment, lived many times",
@@ -45,7 +56,7 @@ CAPTIONS = {
         "What single changes are worth",
         "One row a change: dot and 95 % bootstrap interval over training seeds and, where a figure belongs to single drives, "
         "over drives, by the training seeds that all rows of a group have. The first row of each group, in bold, is what the others change; its value is drawn on as a dotted line. "
-        "One seed says nothing of the chance of training.",
+        "The last row is the expert on a random walk, and dashed lines carry its values through all others. One seed says nothing of the chance of training.",
     ),
     "video": (
         "Turns from one moment",
@@ -53,27 +64,48 @@ CAPTIONS = {
         "the one chosen. Right: the way on the map. Ten frames a second, as fast as the car.",
     ),
 }
-"""Title and text of each kind of picture."""
+"""Title and text of each kind of picture; that of landscapes says at {draws} whose they are."""
+
+DRAWS = {
+    "dfo": "ten draws, each made anew, so without commitment: by the paper's search (DFO) from energies, whatever they drive by, and "
+    "by its own sampler from any other policy",
+    "own": "ten draws of the policy's own sampler, each made anew, so without commitment",
+}
+"""Whose draws landscapes show."""
 
 TABLES = {
     "summary.md": (
         "In short",
-        "What happened in all drives of an agent together, a number for each (for each walk of the expert); ratios with 95 % "
-        "bootstrap intervals over training seeds and drives.",
+        "What happened in all drives of an agent together, a number for each (for each walk of the expert). Distances by the "
+        f"expert's, which is drawn with them, have {_OVER_DRIVES}. Ways by the mean of the expert's walks, and JS of turns, have "
+        f"{_OVER_SEEDS}.",
     ),
     "ratios.md": (
         "The result to reach",
-        "Policies beside the bars that were set; 95 % bootstrap intervals over training seeds and drives in brackets.",
+        "Policies beside the bars that were set. Penalty, distance by the expert's, which is drawn with it, collisions and "
+        f"time off the road (sums over sums of time) have {_OVER_DRIVES}. Recall, by the mean of the expert's walks or by itself, "
+        f"and JS of turns have {_OVER_SEEDS}. JS of exits is that of the passes of all seeds together, without an interval: beside "
+        "it is what as many passes of a perfect policy would show, which for one agent alone may be above the bar. The bar is "
+        "for exits at each approach; turns of the whole town, where wrong ones here and there make up for each other, reach it "
+        "more easily.",
     ),
     "paper.md": (
         "Distance, infraction penalty and score",
-        "As the paper counts them: score is distance times 0.7 to the power of red lights run.",
+        "As the paper counts them: score is distance times 0.7 to the power of red lights run. Distance and score of all drives "
+        "are sums over drives, each from another start; the last score is their distance times 0.7 to the power of all of their "
+        f"red lights. Rates are sums over sums. All have {_OVER_DRIVES}. {PRINTED_NOTE}",
     ),
     "multimodality.md": (
         "Multimodality",
-        "What is chosen where the road forks, and how many ways to act a policy sees.",
+        "What is chosen where the road forks, and how many ways to act a policy sees: modes are separate ways to act of 5 % or "
+        "more at held-out moments before junctions, of which few show a choice. All have "
+        f"{_OVER_SEEDS}.",
     ),
-    "ablations.md": ("Ablations", "Single changes below what they change, by the same seeds."),
+    "ablations.md": (
+        "Ablations",
+        "Single changes below what they change, by the same seeds, and the references. Distances by the expert's, which is drawn "
+        f"with them, have {_OVER_DRIVES}. Ways, JS of turns, mode precision and likelihood have {_OVER_SEEDS}.",
+    ),
     "demonstrations.md": (
         "Demonstrations",
         "What was learnt from, and how often it turns which way.",

@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 
 from mjdrive.evaluation.bootstrap import Interval
 from mjdrive.picture_style import STYLE, save
-from mjdrive.study.pictures.figure_looks import GRID, INK
+from mjdrive.study.pictures.figure_looks import GRID, INK, PALE
 
 LABEL_WIDTH = 42
 """Letters in a line of the label of a row; longer labels have several lines."""
@@ -36,7 +36,10 @@ class AblationRow:
 
 
 def draw_ablation(
-    columns: Sequence[str], groups: Sequence[Sequence[AblationRow]], path: Path
+    columns: Sequence[str],
+    groups: Sequence[Sequence[AblationRow]],
+    path: Path,
+    reference: AblationRow | None = None,
 ) -> None:
     """Draw groups of rows: the first row of each is what the others change, and its value is drawn on through them.
 
@@ -44,7 +47,9 @@ def draw_ablation(
         columns: Names of the figures with their units.
         groups: At least one group of at least one row.
         path: PNG file to write.
+        reference: Stands below all groups, and its values are drawn on through all of them; None for none.
     """
+    groups = [*groups, *([[reference]] if reference is not None else [])]
     rows = sum(len(group) for group in groups)
     with matplotlib.style.context(["default", STYLE]):
         size = (9.5, 1.0 + 0.31 * rows + 0.25 * len(groups))
@@ -52,6 +57,9 @@ def draw_ablation(
         grid = figure.subplots(1, len(columns), sharey=True, squeeze=False)[0]
         places = _places(groups)
         for index, (axes, column) in enumerate(zip(grid, columns, strict=True)):
+            known = None if reference is None else reference.intervals[index]
+            if known is not None:
+                axes.axvline(known.value, color=PALE, lw=0.8, ls=(0, (5, 2)), zorder=0.5)
             for group, heights in zip(groups, places, strict=True):
                 base = group[0].intervals[index]
                 if base is not None:
@@ -70,7 +78,7 @@ def draw_ablation(
             axes.spines["left"].set_visible(False)
         every = [row for group in groups for row in group]
         grid[0].set_yticks([height for heights in places for height in heights], [fill(it.label, LABEL_WIDTH) for it in every])  # fmt: skip
-        firsts = {id(group[0]) for group in groups}
+        firsts = {id(group[0]) for group in groups if group[0] is not reference}
         for text, row in zip(grid[0].get_yticklabels(), every, strict=True):
             text.set_fontweight("bold" if id(row) in firsts else "normal")
             text.set_fontsize(8)

@@ -1,6 +1,6 @@
 """Training progress: how well agents drive while they learn, mean and spread over training seeds (the paper's figure)."""
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
@@ -61,6 +61,30 @@ def draw_progress(
             frameon=False,
         )
         save(figure, path)
+
+
+def seeds_in_words(progress: Sequence[ProgressPoint], looks: Mapping[str, Look]) -> str:
+    """How many training seeds each point has; empty if all have as many.
+
+    Args:
+        progress: Agents before the end of their training, at least one.
+        looks: Of each arm, by name.
+    """
+    seeds = Counter((point.arm, point.epoch) for point in progress)
+    if len(set(seeds.values())) == 1:
+        return ""
+    parts = []
+    for arm in dict.fromkeys(point.arm for point in progress):
+        epochs = defaultdict(list)
+        for (name, epoch), count in sorted(seeds.items()):
+            if name == arm:
+                epochs[count].append(str(epoch))
+        counts = [
+            f"{count}" if len(epochs) == 1 else f"{count} at epoch {', '.join(each)}"
+            for count, each in epochs.items()
+        ]
+        parts.append(f"{looks[arm].label} {' and '.join(counts)}")
+    return f"Training seeds of each point: {'; '.join(parts)}."
 
 
 def _table(

@@ -16,8 +16,8 @@ from mjdrive.study.pictures import (
     figures_paths,
     figures_progress,
 )
-from mjdrive.study.pictures.ablation_rows import COLUMNS, ablation_groups
-from mjdrive.study.pictures.captions import CAPTIONS
+from mjdrive.study.pictures.ablation_rows import COLUMNS, ablation_groups, reference_row
+from mjdrive.study.pictures.captions import CAPTIONS, DRAWS
 from mjdrive.study.pictures.figure_looks import looks, own_arms
 from mjdrive.study.pictures.figures_landscape import Panel
 from mjdrive.study.records.reading import StudyFiles
@@ -112,12 +112,14 @@ class _Drawing:
     def landscapes(self) -> Iterator[Picture]:
         """What agents think at the same moments, a few of them in a picture."""
         records = self._study.landscapes
+        draws = DRAWS["dfo" if any(it.drawn_by == "dfo" for it in records) else "own"]
         agents = list(dict.fromkeys((it.arm, it.seed) for it in records))
         for number, first in enumerate(range(0, len(agents), LANDSCAPES_A_PICTURE), start=1):
             shown = agents[first : first + LANDSCAPES_A_PICTURE]
             name = f"landscapes-{number}"
             self._draw_landscapes([it for it in records if (it.arm, it.seed) in shown], name)
             drawn = self._picture(name, "landscapes")
+            drawn = replace(drawn, caption=drawn.caption.format(draws=draws))
             several = f"{drawn.title} ({number})"
             yield drawn if len(agents) <= LANDSCAPES_A_PICTURE else replace(drawn, title=several)
 
@@ -135,12 +137,15 @@ class _Drawing:
             branches = self._study.results.arms[0].choices.branches
             path = self._path("progress")
             figures_progress.draw_progress(progress, self._looks, branches, path)
-            yield self._picture("progress")
+            drawn = self._picture("progress")
+            note = figures_progress.seeds_in_words(progress, self._looks)
+            yield replace(drawn, caption=f"{drawn.caption} {note}".rstrip())
 
     def ablation(self) -> Iterator[Picture]:
         """What single changes are worth."""
         groups = ablation_groups(self._study, self._looks)
-        figures_ablation.draw_ablation(COLUMNS, groups, self._path("ablation"))
+        expert = reference_row(self._study, self._looks)
+        figures_ablation.draw_ablation(COLUMNS, groups, self._path("ablation"), expert)
         yield self._picture("ablation")
 
     def _draw_paths(self, paths: list[DrivenPath] | tuple[DrivenPath, ...], name: str, *, columns: int) -> None:  # fmt: skip

@@ -84,11 +84,6 @@ def begin(folder: Path, record: StudyRecord) -> None:
         )
 
 
-def is_written(kind: type[Record], path: Path) -> bool:
-    """Whether a JSON file of a study is there and whole."""
-    return read(kind, path) is not None
-
-
 def read(kind: type[Record], path: Path) -> Record | None:
     """Read a JSON file of a study; None if it is not there or not whole, so that it is made again."""
     if not path.is_file():

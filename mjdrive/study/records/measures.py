@@ -1,4 +1,4 @@
-"""What a study measures of a drive, and of what an agent thinks; `mjdrive.study.results` holds them all."""
+"""What a study measures of a drive, and of what an agent thinks; `mjdrive.study.records.results` holds them all."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from mjdrive.config import StudyConfig
+from mjdrive.config import Draws, StudyConfig
 from mjdrive.evaluation.choices import ChoiceStatistics
 from mjdrive.evaluation.forking import ForkOutcome
 from mjdrive.study.records.measures import Curve, DriveFigures, LandscapeFigures, Likelihood
@@ -187,7 +187,7 @@ class StudyResults:
 
 @dataclass(frozen=True, slots=True)
 class LandscapeRecord:
-    """What an agent thinks of every action at one moment; `mjdrive.study.landscapes` measures it.
+    """What an agent thinks of every action at one moment; `mjdrive.study.jobs.landscapes` measures it.
 
     Attributes:
         arm: Name of the main arm of the variant.
@@ -196,7 +196,8 @@ class LandscapeRecord:
         moment: When it was asked; the bird's-eye view is drawn again from it.
         points: Points along each action component [-].
         probabilities: Of the points of the grid, acceleration outermost, one row after the other [-].
-        draws: Actions that the main arm chose, each acceleration and steering [-].
+        draws: Actions that were drawn, each anew, acceleration and steering [-].
+        drawn_by: By the paper's search ("dfo"), or as the main arm draws ("own").
     """
 
     arm: str
@@ -206,6 +207,7 @@ class LandscapeRecord:
     points: int
     probabilities: tuple[float, ...]
     draws: tuple[tuple[float, float], ...]
+    drawn_by: Draws = "own"
 
 
 @dataclass(frozen=True, slots=True)

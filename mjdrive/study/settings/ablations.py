@@ -45,7 +45,12 @@ DFO = (
 PAPERS_DFO = (*DFO, "sampler.dfo.temper=false", "sampler.dfo.choice=sample")
 """How the paper acts."""
 
-_GRID = ("sampler.kind=grid", "sampler.grid.choice=sample", "commitment.hold=30")
+ANEW, COMMITTED = "commitment.hold=0", "commitment.hold=30"
+"""Draw each action anew, or let the chance of steering last for three seconds."""
+
+GRID_SAMPLED = ("sampler.kind=grid", "sampler.grid.choice=sample", ANEW)
+GRID_COMMITTED = ("sampler.kind=grid", "sampler.grid.choice=sample", COMMITTED)
+GRID_LOWEST = ("sampler.kind=grid", "sampler.grid.choice=argmin")
 
 _PAPERS_NEGATIVES = (
     "negatives.correction=none",
@@ -97,9 +102,16 @@ ABLATIONS = (
         _SEES_ACTION,
         "network.state_dropout=0.5",
     ),
+    _variant("lights-now", "sees the lights of now alone", "network.light_history=false"),
     _variant("plain-head", "plain first weights of the action", "network.action_gain=1"),
     _variant("averaged", "acts by a running mean of its weights", "optimiser.ema_decay=0.999"),
     _variant("undisturbed", "undisturbed demonstrations", demonstrations="undisturbed"),
+    _variant(
+        "perturbed",
+        "undisturbed demonstrations, half of the pairs seen from perturbed poses",
+        "perturbation.share=0.5",
+        demonstrations="undisturbed",
+    ),
     _variant(
         "routes",
         "the ten routes thirteen times, instead of a quarter of 400 km of random walks",
@@ -126,11 +138,11 @@ Its optimiser, 400 passes over the ten routes, takes seven hours an agent: that 
 
 
 def _arm(name: str, variant: str, label: str, change: str, *acting: str) -> Arm:
-    return Arm(f"da-ibc-{name}", variant, f"DA-IBC, {label}", (*_GRID, *acting), change)
+    return Arm(f"da-ibc-{name}", variant, f"DA-IBC, {label}", (*GRID_COMMITTED, *acting), change)
 
 
-ACTING_ABLATIONS = (
-    *(Arm(it.name, it.name, f"DA-IBC, {it.change}", _GRID, it.change) for it in ABLATIONS),
+ACTING_ABLATIONS: tuple[Arm, ...] = (
+    *(Arm(it.name, it.name, f"DA-IBC, {it.change}", GRID_COMMITTED, it.change) for it in ABLATIONS),
     _arm(
         "uncorrected-undone",
         "da-ibc-uncorrected",
@@ -174,16 +186,45 @@ ACTING_ABLATIONS = (
         "sampler.grid.temperature=0.5",
     ),
     Arm(
-        "da-ibc-dfo-argmin",
+        "da-ibc-tempered-argmin",
         "da-ibc",
-        "DA-IBC, DFO lowest",
+        "DA-IBC, tempered DFO lowest",
         (
             "sampler.kind=dfo",
             "sampler.dfo.num_samples=2048",
             "sampler.dfo.temper=true",
             "sampler.dfo.choice=argmin",
         ),
-        "the lowest energy that DFO finds",
+        "the lowest energy that the tempered DFO finds",
     ),
 )
 """Ways to act: of the agents above, and of the study's DA-IBC with a single change."""
+
+KDE = Variant(
+    "da-ibc-kde",
+    "da-ibc",
+    assignments=(*LONG_STEEP, "density.weighting=sampler"),
+    change="pairs drawn by 1/KDE, for the whole pass",
+    base="da-ibc",
+    like_methods=True,
+)
+"""DA-IBC that sees rare actions more often, trained as long and with as many seeds as the study's."""
+
+KDE_ARMS = (
+    Arm("da-ibc-kde-committed", KDE.name, "DA-IBC by 1/KDE, grid committed", GRID_COMMITTED),
+    Arm(
+        "da-ibc-kde-sample",
+        KDE.name,
+        "DA-IBC by 1/KDE, grid sampled",
+        GRID_SAMPLED,
+        as_ablation=f"{KDE.change}, and each action drawn anew",
+    ),
+    Arm(
+        "da-ibc-kde-argmin",
+        KDE.name,
+        "DA-IBC by 1/KDE, grid lowest",
+        GRID_LOWEST,
+        as_ablation=f"{KDE.change}, and the lowest energy",
+    ),
+)
+"""How it acts: as the study's DA-IBC does. It is there if it is asked for by name: with it, a study takes longer than a night."""

@@ -1,6 +1,6 @@
 """Who learns and who drives in a study: agents, and agents in their ways to act."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mjdrive.config import Arm, StudyConfig, Variant
 from mjdrive.errors import ConfigError
@@ -56,7 +56,7 @@ def agents(config: StudyConfig) -> tuple[Agent, ...]:
 
 
 def _training_seeds(config: StudyConfig, variant: Variant) -> tuple[int, ...]:
-    if variant.change:
+    if variant.change and not variant.like_methods:
         return config.ablation_seeds
     return config.seeds if variant.all_seeds else config.detail_seeds
 
@@ -83,17 +83,19 @@ def main_arm(config: StudyConfig, variant: str) -> Arm:
 def ablations(config: StudyConfig) -> tuple[tuple[Arm, ...], ...]:
     """Groups of arms: first the main arm of a variant, then every arm that changes it.
 
-    What is trained anew changes `Variant.base`, what acts in another way changes its own variant. A group whose base does
-    not drive in this study begins with its first change.
+    What is trained anew changes `Variant.base`, what acts in another way changes its own variant; an arm of the study
+    itself can stand there, too, by `Arm.as_ablation`. A group whose base does not drive in this study begins with its first change.
     """
     variants = {it.name: it for it in config.variants}
     changed: dict[str, list[Arm]] = {}
     for arm in config.arms:
         variant = variants[arm.variant]
+        is_row = arm.change or (arm.as_ablation and arm != main_arm(config, variant.name))
+        row = replace(arm, change=arm.change or arm.as_ablation)
         if variant.change:
-            changed.setdefault(variant.base or variant.method, []).append(arm)
-        elif arm.change:
-            changed.setdefault(variant.name, []).append(arm)
+            changed.setdefault(variant.base or variant.method, []).append(row)
+        elif is_row:
+            changed.setdefault(variant.name, []).append(row)
     return tuple(
         (*((main_arm(config, base),) if base in variants else ()), *arms)
         for base, arms in changed.items()

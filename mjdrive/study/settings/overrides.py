@@ -43,6 +43,8 @@ def chosen(
         UnknownNameError: If there is no such preset, method, arm or setting.
     """
     study = presets.preset(preset, methods=methods)
+    if arms is not None:
+        study = presets.with_asked_for(study, arms)
     if not ablations:
         study = _without_ablations(study)
     if arms is not None:
@@ -70,7 +72,11 @@ def chosen(
 def _without_ablations(config: StudyConfig) -> StudyConfig:
     """The same study of the methods alone."""
     methods = {it.name for it in config.variants if not it.change}
-    kept = [it for it in config.arms if it.variant in methods and not it.change]
+    kept = [
+        dataclasses.replace(it, as_ablation="")
+        for it in config.arms
+        if it.variant in methods and not it.change
+    ]
     return _acting_in(config, kept)
 
 

@@ -1,14 +1,23 @@
 """Named studies: `quick` takes minutes, `standard` a night on two cores, `paper` has the settings of the paper throughout."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from mjdrive.config import Arm, Demonstrations, StudyConfig, Variant
+from mjdrive.config.study import names_of
 from mjdrive.errors import UnknownNameError
 from mjdrive.study.settings.ablations import (
     ABLATED_DEMONSTRATIONS,
     ABLATIONS,
     ACTING_ABLATIONS,
+    ANEW,
+    COMMITTED,
     DFO,
+    GRID_COMMITTED,
+    GRID_LOWEST,
+    GRID_SAMPLED,
+    KDE,
+    KDE_ARMS,
     LONG,
     LONG_STEEP,
     PAPERS_DFO,
@@ -23,11 +32,6 @@ COMPARED = ("bc-beta", "da-ibc")
 _GENTLE = ("bc-beta", "bc-mixture")
 """Methods whose step size is small anyway."""
 
-_ANEW = "commitment.hold=0"
-_COMMITTED = "commitment.hold=30"
-_GRID_SAMPLED = ("sampler.kind=grid", "sampler.grid.choice=sample", _ANEW)
-_GRID_COMMITTED = ("sampler.kind=grid", "sampler.grid.choice=sample", _COMMITTED)
-_GRID_LOWEST = ("sampler.kind=grid", "sampler.grid.choice=argmin")
 _TEMPERED_DFO = (
     *DFO,
     "sampler.dfo.num_samples=2048",
@@ -43,12 +47,12 @@ def _aside(name: str, variant: str, label: str, *acting: str) -> Arm:
 
 ARMS = (
     Arm("bc-beta-mode", "bc-beta", "BC-Beta, mode", ("beta.inference=mode",)),
-    Arm("bc-beta-sample", "bc-beta", "BC-Beta, sampled", ("beta.inference=sample", _ANEW)),
+    Arm("bc-beta-sample", "bc-beta", "BC-Beta, sampled", ("beta.inference=sample", ANEW)),
     Arm(
         "bc-beta-committed",
         "bc-beta",
         "BC-Beta, committed",
-        ("beta.inference=sample", _COMMITTED),
+        ("beta.inference=sample", COMMITTED),
         is_long=True,
     ),
     _aside("bc-beta-mean", "bc-beta", "BC-Beta, mean", "beta.inference=mean"),
@@ -56,39 +60,46 @@ ARMS = (
         "bc-mixture-committed",
         "bc-mixture",
         "BC mixture, committed",
-        ("beta.inference=sample", _COMMITTED),
+        ("beta.inference=sample", COMMITTED),
     ),
-    Arm("bc-mixture-sample", "bc-mixture", "BC mixture, sampled", ("beta.inference=sample", _ANEW)),
+    Arm("bc-mixture-sample", "bc-mixture", "BC mixture, sampled", ("beta.inference=sample", ANEW)),
     _aside("bc-mixture-mode", "bc-mixture", "BC mixture, mode", "beta.inference=mode"),
     Arm(
         "bc-grid-committed",
         "bc-grid",
         "BC grid, committed",
-        ("categorical.choice=sample", _COMMITTED),
+        ("categorical.choice=sample", COMMITTED),
     ),
-    Arm("bc-grid-sample", "bc-grid", "BC grid, sampled", ("categorical.choice=sample", _ANEW)),
+    Arm("bc-grid-sample", "bc-grid", "BC grid, sampled", ("categorical.choice=sample", ANEW)),
     _aside("bc-grid-argmax", "bc-grid", "BC grid, densest", "categorical.choice=argmax"),
-    Arm("ibc-committed", "ibc", "IBC, grid committed", _GRID_COMMITTED),
-    _aside("ibc-sample", "ibc", "IBC, grid sampled", *_GRID_SAMPLED),
-    _aside("ibc-argmin", "ibc", "IBC, grid lowest", *_GRID_LOWEST),
-    Arm("da-ibc-committed", "da-ibc", "DA-IBC, grid committed", _GRID_COMMITTED),
-    Arm("da-ibc-sample", "da-ibc", "DA-IBC, grid sampled", _GRID_SAMPLED),
-    Arm("da-ibc-argmin", "da-ibc", "DA-IBC, grid lowest", _GRID_LOWEST),
+    Arm("ibc-committed", "ibc", "IBC, grid committed", GRID_COMMITTED),
+    _aside("ibc-sample", "ibc", "IBC, grid sampled", *GRID_SAMPLED),
+    _aside("ibc-argmin", "ibc", "IBC, grid lowest", *GRID_LOWEST),
+    Arm("da-ibc-committed", "da-ibc", "DA-IBC, grid committed", GRID_COMMITTED),
+    Arm(
+        "da-ibc-sample",
+        "da-ibc",
+        "DA-IBC, grid sampled",
+        GRID_SAMPLED,
+        as_ablation="no commitment: each action is drawn anew",
+    ),
+    Arm("da-ibc-argmin", "da-ibc", "DA-IBC, grid lowest", GRID_LOWEST),
     _aside("da-ibc-dfo", "da-ibc", "DA-IBC, the paper's DFO", *PAPERS_DFO),
     _aside("da-ibc-tempered", "da-ibc", "DA-IBC, tempered DFO", *_TEMPERED_DFO),
-    Arm("ibc-langevin-committed", "ibc-langevin", "Langevin IBC, grid committed", _GRID_COMMITTED),
+    Arm("ibc-langevin-committed", "ibc-langevin", "Langevin IBC, grid committed", GRID_COMMITTED),
     Arm("ibc-langevin-chain", "ibc-langevin", "Langevin IBC, chains", ("sampler.kind=langevin",)),
-    Arm("diffusion-committed", "diffusion", "Diffusion, committed", (_COMMITTED,)),
-    Arm("diffusion-sample", "diffusion", "Diffusion, sampled", (_ANEW,)),
-    Arm("flow-committed", "flow", "Flow matching, committed", (_COMMITTED,)),
-    Arm("flow-sample", "flow", "Flow matching, sampled", (_ANEW,)),
+    Arm("diffusion-committed", "diffusion", "Diffusion, committed", (COMMITTED,)),
+    Arm("diffusion-sample", "diffusion", "Diffusion, sampled", (ANEW,)),
+    Arm("flow-committed", "flow", "Flow matching, committed", (COMMITTED,)),
+    Arm("flow-sample", "flow", "Flow matching, sampled", (ANEW,)),
 )
 """How each method acts; the first of a method is its main way, but BC-Beta, whose mode is the paper's, makes the long drive in two. BC-Beta and DA-IBC
 by mode and by sample are the 2 x 2 control; what is committed as well says what lasting chance does in either."""
 
 _PAPER_ARMS = (
     Arm("bc-beta-mode", "bc-beta", "BC-Beta, mode", ("beta.inference=mode",)),
-    Arm("bc-beta-sample", "bc-beta", "BC-Beta, sampled", ("beta.inference=sample", _ANEW)),
+    Arm("bc-beta-sample", "bc-beta", "BC-Beta, sampled", ("beta.inference=sample", ANEW)),
+    Arm("ibc-dfo", "ibc", "IBC, the paper's DFO", PAPERS_DFO),
     Arm("da-ibc-dfo", "da-ibc", "DA-IBC, the paper's DFO", PAPERS_DFO),
     Arm(
         "da-ibc-dfo-argmin",
@@ -163,9 +174,22 @@ def standard(methods: Sequence[str] | None = None) -> StudyConfig:
     )
 
 
+def with_asked_for(study: StudyConfig, arms: Sequence[str]) -> StudyConfig:
+    """Add what a standard study of DA-IBC has only if it is asked for by name.
+
+    Args:
+        study: Any study.
+        arms: Names of ways to act.
+    """
+    is_standard = study.preset == "standard" and "da-ibc" in names_of(study.variants)
+    if not is_standard or not {it.name for it in KDE_ARMS} & set(arms):
+        return study
+    return replace(study, variants=(*study.variants, KDE), arms=(*study.arms, *KDE_ARMS))
+
+
 def paper(methods: Sequence[str] | None = None) -> StudyConfig:
-    """The paper: three agents a method, ten episodes of 3,000 steps every ten epochs, its settings throughout."""
-    methods = ("bc-beta", "da-ibc") if methods is None else methods
+    """The paper: three agents of each of its methods, ten episodes of 3,000 steps every ten epochs, its settings throughout."""
+    methods = ("bc-beta", "ibc", "da-ibc") if methods is None else methods
     mine = {arm.variant for arm in _PAPER_ARMS}
     arms = (*_PAPER_ARMS, *(arm for arm in ARMS if arm.variant not in mine))
     return StudyConfig(

@@ -8,6 +8,7 @@ from mjdrive.study.tables.rows import (
     ablation_labels,
     agent_cell,
     markdown,
+    reference_rows,
     same_seeds,
     training_seeds,
 )
@@ -15,7 +16,7 @@ from mjdrive.study.tables.summary_table import summary_columns
 
 
 def ablation_table(config: StudyConfig, found: StudyResults) -> str:
-    """Single changes, each group below what it changes; all of a group are by the same training seeds.
+    """Single changes, each group below what it changes, and the references; all of a group are by the same training seeds.
 
     Args:
         config: Settings of the study.
@@ -27,11 +28,10 @@ def ablation_table(config: StudyConfig, found: StudyResults) -> str:
         ("mode precision", lambda row: agent_cell(row, mode_precision)),
         ("held-out log-likelihood at junctions [nats]", lambda row: agent_cell(row, junction_gain)),
     )
-    body = [
-        [row.label, *(show(row) for _, show in columns)]
-        for labels in ablation_labels(config)
-        for _, row in same_seeds(found, labels)
-    ]
-    if not body:
+    rows = [row for labels in ablation_labels(config) for _, row in same_seeds(found, labels)]
+    if not rows:
         return "This study has no ablations.\n"
+    body = [
+        [row.label, *(show(row) for _, show in columns)] for row in (*rows, *reference_rows(found))
+    ]
     return markdown(["", *(title for title, _ in columns)], body)

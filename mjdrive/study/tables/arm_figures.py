@@ -3,7 +3,6 @@
 from collections.abc import Callable
 
 from mjdrive.evaluation.forking import mean_outcome, mean_taken
-from mjdrive.evaluation.metrics import RED_LIGHT_FACTOR
 from mjdrive.study.records.measures import Curve, DriveFigures
 from mjdrive.study.records.results import ArmResult
 
@@ -14,35 +13,6 @@ _STEP_S = 0.1
 def total(figure: Callable[[DriveFigures], float]) -> Callable[[ArmResult], float]:
     """The sum of a figure over the drives of an agent, in its own unit."""
     return lambda result: sum(figure(drive) for drive in result.drives)
-
-
-def rate(
-    above: Callable[[DriveFigures], float], below: Callable[[DriveFigures], float]
-) -> Callable[[ArmResult], float | None]:
-    """A figure over another, each summed over the drives of an agent; None where that is nothing."""
-
-    def rate_of(result: ArmResult) -> float | None:
-        divisor = total(below)(result)
-        return total(above)(result) / divisor if divisor else None
-
-    return rate_of
-
-
-def long_score(result: ArmResult) -> float:
-    """Distance of all drives times 0.7 to the power of all red lights run [m]."""
-    reds = total(lambda it: it.red_lights)(result)
-    return float(total(lambda it: it.distance_m)(result) * RED_LIGHT_FACTOR**reds)
-
-
-def reds_per_km(result: ArmResult) -> float | None:
-    """Red lights run per kilometre driven [1/km]; None if it went nowhere."""
-    per_metre = rate(lambda it: it.red_lights, lambda it: it.distance_m)(result)
-    return None if per_metre is None else 1000.0 * per_metre
-
-
-def reds_per_light(result: ArmResult) -> float | None:
-    """Red lights run per light met [-]; None if it met none."""
-    return rate(lambda it: it.red_lights, lambda it: it.lights_met)(result)
 
 
 def km_to_half(result: ArmResult) -> float | None:
@@ -87,6 +57,16 @@ def conditional_entropy(result: ArmResult) -> float | None:
 def num_modes(result: ArmResult) -> float | None:
     """Mean number of ways to act that an agent sees at junctions [-]."""
     return result.landscape.modes if result.landscape and result.landscape.frames else None
+
+
+def share_multimodal(result: ArmResult) -> float | None:
+    """Share of the moments at junctions at which an agent sees several ways to act [-]."""
+    return result.landscape.multimodal if result.landscape and result.landscape.frames else None
+
+
+def heaviest_mode(result: ArmResult) -> float | None:
+    """Mean mass of the heaviest way to act at junctions [-]."""
+    return result.landscape.heaviest if result.landscape and result.landscape.frames else None
 
 
 def junction_entropy(result: ArmResult) -> float | None:

@@ -1,5 +1,6 @@
 """What the tables of a study have in a row: all agents of an arm together, or a reference."""
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -21,6 +22,9 @@ REFERENCE_LABELS = {
 
 NOTHING = "-"
 """What a cell shows where nothing was measured."""
+
+EPISODE_STEPS, ALL_STEPS = 3000, 30_000
+"""Control steps of an episode of the paper, and of all ten of an agent [-]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,31 +112,56 @@ def same_seeds(found: StudyResults, labels: Mapping[str, str]) -> list[tuple[str
     ]
 
 
-def interval(figures: Float[np.ndarray, "S E"]) -> Interval:
-    """Mean with its bootstrap interval; the same figures give the same interval."""
-    return bootstrap.interval(figures, rng=np.random.default_rng(0))
+def has_size_of_the_paper(config: StudyConfig) -> bool:
+    """Whether episodes are as long and as many as the paper's."""
+    return (config.steps, config.episodes * config.steps) == (EPISODE_STEPS, ALL_STEPS)
+
+
+def interval(*figures: Float[np.ndarray, "S E"], statistic: Statistic = bootstrap.mean) -> Interval:
+    """A statistic with its bootstrap interval; the same figures give the same interval."""
+    return bootstrap.interval(*figures, rng=np.random.default_rng(0), statistic=statistic)
 
 
 def ratio(
-    figures: Float[np.ndarray, "S E"],
-    reference: Float[np.ndarray, "R F"],
-    statistic: Statistic = bootstrap.mean,
+    figures: Float[np.ndarray, "S E"], reference: Float[np.ndarray, "R F"]
 ) -> Interval | None:
     """Ratio to the mean of a reference with its bootstrap interval; None if the reference has nothing."""
     if not (reference > 0).all():
         return None
-    return bootstrap.ratio_interval(
-        figures, reference, rng=np.random.default_rng(0), statistic=statistic
-    )
+    return bootstrap.ratio_interval(figures, reference, rng=np.random.default_rng(0))
+
+
+def drive_cell(
+    row: Row, *figures: Callable[[DriveFigures], float], statistic: Statistic = bootstrap.mean
+) -> str:
+    """What a statistic makes of figures of single drives, with its interval over agents and drives.
+
+    Args:
+        row: Agents or a reference.
+        *figures: Of a drive, as many as the statistic takes.
+        statistic: What is made of them.
+    """
+    return cell(*map(row.per_drive, figures), statistic=statistic)
+
+
+def drive_column(
+    *figures: Callable[[DriveFigures], float], statistic: Statistic = bootstrap.mean
+) -> Callable[[Row], str]:
+    """The same for any row."""
+    return lambda row: drive_cell(row, *figures, statistic=statistic)
 
 
 def agent_cell(row: Row, figure: Callable[[ArmResult], float | None], *, digits: int = 2) -> str:
     """Mean and interval over the agents that have a figure, and how many those are unless all have it."""
     figures = row.per_agent(figure)
+    if figures is None:
+        return NOTHING
     text = cell(figures, digits=digits)
-    if figures is None or len(figures) == len(row.results):
-        return text
-    return f"{text} ({len(figures)} of {len(row.results)})"
+    return (
+        text
+        if len(figures) == len(row.results)
+        else f"{text} ({len(figures)} of {len(row.results)})"
+    )
 
 
 def training_seeds(row: Row) -> str:
@@ -140,15 +169,18 @@ def training_seeds(row: Row) -> str:
     return str(len(row.results)) if row.results[0].variant else NOTHING
 
 
-def cell(figures: Float[np.ndarray, "S E"] | None, *, digits: int = 2) -> str:
-    """Mean and interval as a table has them; the figure alone where there is no other."""
-    if figures is None:
+def cell(
+    *figures: Float[np.ndarray, "S E"], statistic: Statistic = bootstrap.mean, digits: int = 2
+) -> str:
+    """A statistic and its interval as a table has them; without the interval where there is one figure alone."""
+    found = interval(*figures, statistic=statistic)
+    if math.isnan(found.value):
         return NOTHING
-    if figures.size == 1:
-        return number(float(figures[0, 0]), digits=digits)
-    found = interval(figures)
+    text = number(found.value, digits=digits)
+    if figures[0].size == 1:
+        return text
     low, high = (f"{it:,.{_shown(found.value, digits)}f}" for it in (found.low, found.high))
-    return f"{number(found.value, digits=digits)} [{low}, {high}]"
+    return f"{text} [{low}, {high}]"
 
 
 def _shown(value: float, digits: int) -> int:
@@ -166,3 +198,34 @@ def markdown(head: Sequence[str], body: Sequence[Sequence[str]]) -> str:
     """A table in Markdown."""
     lines = [head, ["---"] * len(head), *body]
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def agents_table(
+    config: StudyConfig,
+    found: StudyResults,
+    columns: Sequence[Column],
+    others: Sequence[Sequence[str]] = (),
+) -> str:
+    """References and all arms that are no ablations, with the number of training seeds, in Markdown.
+
+    Args:
+        config: Settings of the study.
+        found: Its results.
+        columns: What is shown of each.
+        others: Rows that are text already, which stand below them.
+    """
+    columns = (("training seeds", training_seeds), *columns)
+    rows = [*reference_rows(found), *(it for it in arm_rows(config, found) if not it.change)]
+    measured = [[row.label, *(show(row) for _, show in columns)] for row in rows]
+    return markdown(["", *(title for title, _ in columns)], [*measured, *others])
+
+
+def duration(steps: int) -> str:
+    """Simulated time of some control steps, in words."""
+    return f"{0.1 * steps:,.0f} s"
+
+
+def turn_balance(shares: Mapping[str, float]) -> str:
+    """Shares of left, straight and right in words, from shares by the name of the move [-]."""
+    each = (f"{100 * shares.get(move, 0.0):.0f}" for move in ("left", "straight", "right"))
+    return f"{' / '.join(each)} %"

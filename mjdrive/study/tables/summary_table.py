@@ -22,8 +22,8 @@ from mjdrive.study.tables.rows import (
 def summary_table(config: StudyConfig, found: StudyResults) -> str:
     """What happened to each agent, in the order of training seeds, and of the expert's walks.
 
-    Counts are small, so they stand there themselves and not as means. The ratios have bootstrap intervals over agents and
-    drives, as in `ratio_table`.
+    Counts are small, so they stand there themselves and not as means. Distances have bootstrap intervals over agents and
+    drives; ways and the divergence of turns over agents alone, as in `ratio_table`.
 
     Args:
         config: Settings of the study.

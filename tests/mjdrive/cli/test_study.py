@@ -1,5 +1,8 @@
-"""`mjdrive study`: what it refuses before anything runs."""
+"""`mjdrive study`: what it refuses before anything runs, and the quick one as it is typed, to its report."""
 
+import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -7,6 +10,9 @@ from click.testing import CliRunner
 
 from mjdrive.cli.main import main
 from mjdrive.cli.study import study
+from mjdrive.study.records.reading import read_study
+from mjdrive.study.settings.overrides import chosen
+from mjdrive.study.tables import tables
 
 
 def refused(tmp_path: Path, *options: str) -> str:
@@ -60,3 +66,46 @@ def test_the_command_is_kept_with_every_option(
     assert [it.command for it in begun] == [
         f"mjdrive study --preset quick --set long_steps=0 --out '{tmp_path}/my study'"
     ]
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(900)  # a minute of a core, on a machine that may be busy
+def test_the_quick_study_runs_as_it_is_typed_to_its_report(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "mjdrive", "study", "--preset", "quick", "--out", "quick"]
+    told = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert told.returncode == 0, told.stderr
+    assert "quick/report.html" in told.stdout
+    folder, config = tmp_path / "quick", chosen("quick")
+    found = read_study(folder)
+    assert found.record.settings == config
+    assert found.record.command.endswith("study --preset quick --out quick")
+    assert [it.arm for it in found.results.arms] == [it.name for it in config.arms]
+    walks = [it.arm for it in found.results.references]
+    assert walks == ["expert"] * config.expert_walks + ["right-walker"]
+    for it in (*found.results.references, *found.results.arms):
+        assert [drive.steps for drive in it.drives] == [config.steps] * config.episodes
+    for it in found.results.arms:
+        assert it.long_drive is not None
+        assert it.long_drive.steps == config.long_steps
+        assert [fork.rollouts for fork in it.forks] == [config.fork_rollouts] * config.forks
+        assert it.likelihood is not None
+        assert it.likelihood.frames == config.held_out_frames
+    epochs = {(it.arm, it.epoch) for it in found.results.progress}
+    assert epochs == {(it.name, epoch) for it in config.arms for epoch in (1, 2)}
+    drawn = {(it.arm, it.drawn_by, len(it.draws)) for it in found.landscapes}
+    assert drawn == {("bc-beta-mode", "own", 10), ("da-ibc-committed", "dfo", 10)}
+    report = (folder / "report.html").read_text()
+    kept = {it.name for it in (folder / tables.TABLES).iterdir()}
+    assert kept == {
+        "summary.md",
+        "paper.md",
+        "ratios.md",
+        "multimodality.md",
+        "ablations.md",
+        "demonstrations.md",
+    }
+    pictures = {it.stem for it in (folder / "pictures").iterdir()}
+    assert {"recall", "turns", "trajectories", "landscapes-1", "fans", "progress"} <= pictures
+    assert pictures <= set(re.findall(r'id="pictures-([^"]+)"', report))
+    for arm in config.arms:
+        assert arm.label in report

@@ -43,3 +43,11 @@ def test_main_arms_and_those_that_say_so_make_the_long_drive(
 
     assert long_drives(config) == ["bc-beta-sample-3", "bc-beta-mean-3", "da-ibc-sample-3"]
     assert long_drives(dataclasses.replace(config, detail_seeds=())) == []
+
+    def changed(*, like_methods: bool) -> StudyConfig:
+        others = dataclasses.replace(tiny.variants[1], change="other", like_methods=like_methods)
+        variants = (tiny.variants[0], others)
+        return dataclasses.replace(config, variants=variants, ablation_seeds=(3,))
+
+    assert "da-ibc-sample-3" in long_drives(changed(like_methods=True))
+    assert "da-ibc-sample-3" not in long_drives(changed(like_methods=False))

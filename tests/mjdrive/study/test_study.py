@@ -107,7 +107,11 @@ def test_what_was_lost_or_damaged_is_made_again(
     shutil.copytree(tiny_folder, folder)
     for name in ("drives/expert-0/long.json", "drives/da-ibc-sample-3/episode-001.hdf5", RESULTS):
         (folder / name).unlink()
-    next((folder / "landscapes").iterdir()).write_text("{")
+    next((folder / "landscapes").glob("bc-beta-*")).write_text("{")
+    judged = folder / "judged/da-ibc-sample-3.json"
+    record = json.loads(judged.read_text())
+    assert record["landscapes"]
+    judged.write_text(json.dumps({**record, "landscapes": []}))  # as if none had been kept
     Study(tiny, folder).run(quietly)
     assert digests(folder) == digests(tiny_folder)
 

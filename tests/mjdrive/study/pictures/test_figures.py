@@ -16,9 +16,10 @@ from mjdrive.study.pictures import figures_ablation, figures_choices, figures_fa
 from mjdrive.study.pictures.figure_looks import COLOURS, Look, looks, main_arms
 from mjdrive.study.pictures.figures_ablation import AblationRow
 from mjdrive.study.pictures.figures_landscape import draw_landscapes, draw_panel
+from mjdrive.study.pictures.figures_progress import seeds_in_words
 from mjdrive.study.records.fans import FanPath, FanRecord
 from mjdrive.study.records.measures import Curve
-from mjdrive.study.records.results import DrivenPath
+from mjdrive.study.records.results import DrivenPath, ProgressPoint
 from mjdrive.study.records.situations import situations
 from mjdrive.study.settings.presets import standard
 from models.config import METHODS
@@ -80,6 +81,23 @@ def test_the_same_input_gives_the_same_bytes(draw: Draw, tmp_path: Path) -> None
     for name in ("a.png", "b.png"):
         draw(tmp_path / name)
     assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
+
+
+def test_values_of_the_expert_go_through_all_rows(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn: list[Figure] = []
+    monkeypatch.setattr(figures_ablation, "save", lambda figure, path: drawn.append(figure))
+    row = AblationRow("DA-IBC", "#0969da", (Interval(0.5, 0.4, 0.6), None))
+    expert = AblationRow("expert", "#1f2328", (Interval(0.8, 0.7, 0.9), Interval(0.2, 0.1, 0.3)))
+    for reference in (None, expert):
+        figures_ablation.draw_ablation(["penalty", "recall"], [[row]] * 2, Path(), reference)
+    without, beside = ([list(axes.lines) for axes in figure.axes] for figure in drawn)
+    ends = [
+        [line.get_xdata()[0] for line in lines if len(line.get_xdata()) == 2] for lines in beside
+    ]
+    assert ends == [[0.8], [0.2]]
+    assert [len(lines) for lines in without] == [2, 0], "a dot for each row that has a figure"
+    labels = [text.get_text() for text in drawn[1].axes[0].get_yticklabels()]
+    assert labels == ["DA-IBC", "DA-IBC", "expert"]
 
 
 def test_every_method_has_a_colour_of_its_own() -> None:
@@ -155,3 +173,21 @@ def test_a_curve_in_steps_is_read_at_any_place() -> None:
     curve = Curve((0.0, 1.0, 3.0), (0.0, 0.5, 1.0))
     places = np.array([-1.0, 0.0, 0.9, 1.0, 2.9, 3.0, 9.0])
     np.testing.assert_array_equal(figures_choices.at(curve, places), [0, 0, 0, 0.5, 0.5, 1, 1])
+
+
+def test_progress_says_how_many_seeds_each_point_has_where_they_differ() -> None:
+    named = {"a": Look("BC-Beta", "#d1570a"), "b": Look("DA-IBC", "#0969da")}
+
+    def points(*missing: tuple[str, int, int]) -> list[ProgressPoint]:
+        every = ((arm, seed, epoch) for arm in "ab" for seed in (0, 1, 2) for epoch in (1, 2, 3))
+        return [
+            ProgressPoint(it[0], "", it[1], it[2], 0.0, ()) for it in every if it not in missing
+        ]
+
+    assert seeds_in_words(points(), named) == ""
+    assert seeds_in_words(points(("a", 2, 1), ("a", 2, 2)), named) == (
+        "Training seeds of each point: BC-Beta 2 at epoch 1, 2 and 3 at epoch 3; DA-IBC 3."
+    )
+    assert seeds_in_words([it for it in points() if it.arm == "b" or it.seed], named) == (
+        "Training seeds of each point: BC-Beta 2; DA-IBC 3."
+    )

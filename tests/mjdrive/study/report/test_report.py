@@ -185,3 +185,22 @@ def test_a_table_is_read_as_it_was_written() -> None:
 
 def test_a_text_without_a_table_gives_none() -> None:
     assert read_markdown("This study has no ablations.\n") is None
+
+
+def test_landscapes_say_whose_draws_they_show(folder: Path, town02: Town, tmp_path: Path) -> None:
+    study = read_study(folder)
+
+    def caption(*drawn_by: str) -> str:
+        records = tuple(
+            dataclasses.replace(it, drawn_by=drawn_by[index % len(drawn_by)])
+            for index, it in enumerate(study.landscapes)
+        )
+        shown = dataclasses.replace(study, landscapes=records)
+        return next(
+            it.caption for it in draw_pictures(shown, town02, tmp_path) if "landscapes" in it.file
+        )
+
+    own, searched = caption("own"), caption("own", "dfo")
+    assert "white points are ten draws of the policy's own sampler, each made anew" in own
+    assert "by the paper's search (DFO) from energies" in searched
+    assert "{" not in own + searched

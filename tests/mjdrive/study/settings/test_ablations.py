@@ -1,17 +1,25 @@
 import dataclasses
 
 import pytest
+import torch
 
-from mjdrive.config import Variant
+from mjdrive.bev.projector import BevProjector
+from mjdrive.config import BevConfig, Variant
+from mjdrive.datatypes import Town
 from mjdrive.learning.settings import learner_settings
+from mjdrive.study.records.situations import situations
 from mjdrive.study.settings.ablations import (
     ABLATIONS,
     ACTING_ABLATIONS,
+    KDE,
+    KDE_ARMS,
     LONG_STEEP,
     QUARTER,
 )
 from mjdrive.study.settings.agents import learner_config
+from mjdrive.study.settings.presets import ARMS
 from models.config import LearnerConfig, is_idle
+from models.learners import build_learner
 
 STUDYS = learner_config(Variant("da-ibc", "da-ibc", assignments=LONG_STEEP))
 
@@ -69,3 +77,31 @@ def test_what_has_all_of_the_papers_choices_differs_from_it_in_the_optimiser_alo
 
 def test_every_ablation_drives_as_the_study_does() -> None:
     assert {it.name for it in ABLATIONS} <= {it.variant for it in ACTING_ABLATIONS}
+
+
+def test_da_ibc_by_1_kde_differs_from_the_studys_by_that_alone_and_acts_alike() -> None:
+    assert learning_differences(learner_config(KDE), STUDYS) == {"density.weighting"}
+    ways = {arm.name.removeprefix("da-ibc-kde-"): set(arm.acting) for arm in KDE_ARMS}
+    studys = {arm.name.removeprefix("da-ibc-"): set(arm.acting) for arm in ARMS}
+    assert ways == {name: studys[name] for name in ("committed", "sample", "argmin")}
+
+
+def test_lights_without_a_history_are_drawn_as_they_are_now(town02: Town) -> None:
+    """The network looks away; a view that is drawn without a history looks the same to one that does not."""
+    (ablation,) = [it for it in ABLATIONS if it.name == "da-ibc-lights-now"]
+    (red,) = [it for it in situations(town02) if it.name == "red"]
+    blind, seeing = (
+        build_learner(learner_config(it), seed=0).encoder for it in (ablation, QUARTER)
+    )
+    features = {}
+    for age in range(0, 150, 5):  # s / 10, until the light is no longer red
+        moment = dataclasses.replace(red, light_phase=red.light_phase + age / 10)
+        for name, steps in {"history": (15, 8, 0), "now": (0, 0, 0)}.items():
+            projector = BevProjector(town02, config=BevConfig(history_steps=steps))
+            seen = moment.observe(projector)
+            bev, state = torch.tensor(seen.bev)[None], torch.tensor(seen.state)[None]
+            features[name] = blind(bev, state), seeing(bev, state)
+        assert torch.equal(features["history"][0], features["now"][1])
+        if not torch.equal(features["history"][1], features["now"][1]):
+            return
+    pytest.fail("the light never changes")

@@ -1,34 +1,17 @@
-"""What the command line changes of a study, and the presets that it begins with."""
+"""What the command line changes of a study."""
 
 import pytest
 
 from mjdrive.errors import ConfigError, UnknownNameError
 from mjdrive.study.settings import presets
-from mjdrive.study.settings.agents import agents, arm_agents, learner_config, require_buildable
+from mjdrive.study.settings.agents import (
+    agents,
+    arm_agents,
+    learner_config,
+    require_buildable,
+)
 from mjdrive.study.settings.overrides import chosen
 from models.config import METHODS
-
-
-@pytest.mark.parametrize("name", presets.PRESETS)
-def test_every_setting_of_a_preset_has_a_meaning(name: str) -> None:
-    require_buildable(chosen(name))
-
-
-@pytest.mark.parametrize("name", ["standard", "paper"])
-def test_mode_and_sample_of_bc_and_of_the_energy_are_compared(name: str) -> None:
-    ways = {(arm.variant, setting) for arm in chosen(name).arms for setting in arm.acting}
-    kind = "grid" if name == "standard" else "dfo"
-    assert {("bc-beta", "beta.inference=mode"), ("bc-beta", "beta.inference=sample")} <= ways
-    choices = {("da-ibc", f"sampler.{kind}.choice={choice}") for choice in ("sample", "argmin")}
-    assert choices <= ways
-
-
-def test_the_standard_study_compares_all_methods_and_two_of_them_with_three_agents() -> None:
-    trained = [it for it in agents(chosen("standard")) if not it.variant.change]
-    thorough = ("bc-beta", "da-ibc")
-    assert [it.name for it in trained] == [
-        f"{name}-{seed}" for name in METHODS for seed in ((0, 1, 2) if name in thorough else (0,))
-    ]
 
 
 def test_seeds_that_are_asked_for_are_those_of_all_methods() -> None:
@@ -47,45 +30,6 @@ def test_methods_that_are_asked_for_have_three_agents_each() -> None:
     ]
 
 
-def test_all_methods_of_the_standard_study_learn_equally_long_from_as_much() -> None:
-    study = chosen("standard")
-    optimisers = [learner_config(it).optimiser for it in study.variants if not it.change]
-    assert {(it.epochs, it.epochs_per_pass, it.batch_size) for it in optimisers} == {(4, 4, 64)}
-    learnt = {it.name: it.random_walk_km for it in study.demonstrations}
-    assert learnt == {"demonstrations": 400.0, "undisturbed": 400.0, "routes": 0.0}
-
-
-def test_the_paper_study_has_its_settings() -> None:
-    study = chosen("paper")
-    assert (study.episodes, study.steps, study.progress_every) == (10, 3000, 10)
-    assert (study.progress_episodes, study.progress_steps) == (10, 3000)
-    assert [it.preset for it in study.demonstrations] == ["paper"]
-    assert {it.optimiser.epochs for it in map(learner_config, study.variants)} == {400}
-    assert len(agents(study)) == 6
-
-
-@pytest.mark.parametrize("name", ["papers-negatives", "kde-loss", "previous-action", "plain-head"])
-def test_an_ablation_differs_from_da_ibc_by_what_it_says(name: str) -> None:
-    study = chosen("standard")
-    variants = {it.name: it for it in study.variants}
-    assert variants[f"da-ibc-{name}"].change
-    assert learner_config(variants[f"da-ibc-{name}"]) != learner_config(variants["da-ibc"])
-
-
-def test_undisturbed_demonstrations_are_a_data_set_of_their_own() -> None:
-    study = chosen("standard")
-    others = {it.name for it in study.variants if it.demonstrations == "undisturbed"}
-    assert others == {"da-ibc-undisturbed", "da-ibc-papers"}
-    assert {it.demonstrations for it in study.variants} == {
-        "demonstrations",
-        "undisturbed",
-        "routes",
-    }
-    assert [it.name for it in chosen("standard", ablations=False).demonstrations] == [
-        "demonstrations"
-    ]
-
-
 def test_what_acts_in_none_of_the_ways_that_are_kept_is_not_trained() -> None:
     study = chosen("standard", arms=["da-ibc-committed", "bc-beta-sample"])
     assert [it.name for it in study.arms] == ["bc-beta-sample", "da-ibc-committed"]
@@ -93,13 +37,6 @@ def test_what_acts_in_none_of_the_ways_that_are_kept_is_not_trained() -> None:
     assert [it.name for it in study.demonstrations] == ["demonstrations"]
     with pytest.raises(UnknownNameError, match=r"arm of this study.*da-ibc-kept"):
         chosen("standard", arms=["da-ibc-kept"])
-
-
-def test_ablations_of_acting_need_no_training_and_fewer_seeds() -> None:
-    study = chosen("standard")
-    seeds = [it.agent.seed for it in arm_agents(study) if it.arm.name == "da-ibc-cold"]
-    assert seeds == [0]
-    assert len([it for it in arm_agents(study) if it.arm.name == "da-ibc-sample"]) == 3
 
 
 def test_ways_to_act_that_are_aside_are_looked_at_with_one_agent() -> None:
@@ -113,19 +50,6 @@ def test_ways_to_act_that_are_aside_are_looked_at_with_one_agent() -> None:
         "bc-beta-committed-5",
         "bc-beta-committed-6",
         "bc-beta-mean-5",
-    ]
-
-
-def test_each_variant_has_one_main_arm() -> None:
-    main = [it.arm for it in arm_agents(chosen("standard", seeds=[0])) if it.is_main]
-    assert len(main) == len({arm.variant for arm in main}) == len(chosen("standard").variants)
-
-
-def test_methods_that_a_preset_lacks_can_be_asked_for() -> None:
-    assert [it.name for it in chosen("quick", methods=["flow"]).arms] == ["flow-committed"]
-    assert [it.name for it in chosen("paper", methods=["diffusion"]).arms] == [
-        "diffusion-committed",
-        "diffusion-sample",
     ]
 
 
@@ -144,6 +68,11 @@ def test_settings_of_the_study_and_of_learners_are_changed() -> None:
     assert learnt["bc-beta"].optimiser.epochs == learnt["da-ibc"].optimiser.epochs == 5
     assert learnt["da-ibc"].negatives.count == learnt["da-ibc-kde-loss"].negatives.count == 5
     assert learnt["bc-beta"].negatives.count != 5
+
+
+def test_landscapes_show_draws_of_the_papers_search_unless_those_of_the_arms_are_wanted() -> None:
+    assert {chosen(name).landscape_draws for name in presets.PRESETS} == {"dfo"}
+    assert chosen("quick", assignments=["landscape_draws=own"]).landscape_draws == "own"
 
 
 def test_seeds_are_set_as_they_are_given() -> None:
@@ -171,6 +100,7 @@ def test_what_an_ablation_changes_is_not_changed_back() -> None:
         ("detail_seeds=[7]", r"detail_seeds is \(7,\); expected some of seeds, 0"),
         ("ablation_seeds=[7]", r"ablation_seeds is \(7,\); expected some of seeds, 0"),
         ("seeds=4", "seeds"),
+        ("landscape_draws=dof", "landscape_draws"),
     ],
 )
 def test_changes_without_a_meaning_are_refused(assignment: str, said: str) -> None:
