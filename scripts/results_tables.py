@@ -7,9 +7,15 @@ from pathlib import Path
 
 from mjdrive.config import read_json
 from mjdrive.study.records.results import RESULTS, STUDY, StudyRecord, StudyResults
-from mjdrive.study.tables.ablation_table import ablation_table
-from mjdrive.study.tables.ratio_table import ratio_table
-from mjdrive.study.tables.summary_table import summary_table
+from mjdrive.study.tables.tables import (
+    ABLATIONS,
+    DATA,
+    MULTIMODALITY,
+    PAPER,
+    RATIOS,
+    SUMMARY,
+    study_tables,
+)
 
 ROOT = Path(__file__).resolve().parents[1]
 DOCS = ROOT / "docs" / "results"
@@ -19,19 +25,28 @@ STUDIES = {"seeds": DOCS, "methods": DOCS / "methods", "ablations": DOCS / "abla
 PAGES = (ROOT / "docs" / "results.md", ROOT / "README.md")
 
 
+MARKS = {
+    "seeds, in short": ("seeds", SUMMARY),
+    "seeds, beside the bars": ("seeds", RATIOS),
+    "seeds, as the paper counts": ("seeds", PAPER),
+    "seeds, multimodality": ("seeds", MULTIMODALITY),
+    "seeds, demonstrations": ("seeds", DATA),
+    "methods, in short": ("methods", SUMMARY),
+    "ablations": ("ablations", ABLATIONS),
+}
+"""Study and table that stand at each mark."""
+
+
 def tables() -> dict[str, str]:
     """Every table in Markdown, by the mark that it stands at."""
-    found = {}
-    for name, folder in STUDIES.items():
-        config = read_json(StudyRecord, folder / STUDY).settings
-        results = read_json(StudyResults, folder / RESULTS)
-        if name == "ablations":
-            found[name] = ablation_table(config, results)
-            continue
-        found[f"{name}, in short"] = summary_table(config, results)
-        if name == "seeds":
-            found[f"{name}, beside the bars"] = ratio_table(config, results)
-    return found
+    made = {
+        name: study_tables(
+            read_json(StudyRecord, folder / STUDY).settings,
+            read_json(StudyResults, folder / RESULTS),
+        )
+        for name, folder in STUDIES.items()
+    }
+    return {mark: made[study][table] for mark, (study, table) in MARKS.items()}
 
 
 def with_tables(text: str) -> str:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
+import numpy as np
 import pytest
 
 from mjdrive.config import read_json
@@ -61,3 +62,22 @@ def test_an_agent_that_is_in_two_studies_drove_the_same_in_both(
         assert first[key].digest == second[key].digest
         assert first[key].drives == second[key].drives
         assert first[key].likelihood == second[key].likelihood
+
+
+def test_draws_of_drives_have_taken_fewer_ways_than_the_agent(script: ModuleType) -> None:
+    found = read_json(StudyResults, script.STUDIES["seeds"] / RESULTS)
+    agents = [it for it in found.arms if it.arm.endswith("committed")]
+    walks = [it for it in found.references if it.arm == "expert"]
+    assert (len(agents), len(walks)) == (6, 5)
+    ways = [
+        name for name, lane in library.load("town02").lanes.items() if lane.junction is not None
+    ]
+    rng = np.random.default_rng(0)
+    for result in (*agents, *walks):
+        seen = np.array(
+            [[it.branches_taken.get(name, 0) > 0 for name in ways] for it in result.drives]
+        )
+        assert seen.any(axis=0).sum() == result.choices.taken
+        drawn = seen[rng.integers(10, size=(500, 10))].any(axis=1).sum(axis=1)
+        assert 5 <= result.choices.taken - drawn.mean() < 7.6
+        assert (drawn < result.choices.taken).mean() > 0.9
