@@ -1,5 +1,6 @@
 """The reports in docs/results show the tables that are made of the results beside them."""
 
+import base64
 import html.parser
 from collections.abc import Callable
 from pathlib import Path
@@ -13,6 +14,10 @@ from mjdrive.study.records.results import RESULTS, STUDY, StudyRecord, StudyResu
 from mjdrive.study.report.report import REPORT
 from mjdrive.study.tables.report_tables import Table, read_markdown
 from mjdrive.study.tables.tables import study_tables
+
+ROOT = Path(__file__).resolve().parents[2]
+OF_DRIVES = "da-ibc.png"
+"""The one picture that `mjdrive drive` makes."""
 
 
 class Page(html.parser.HTMLParser):
@@ -77,3 +82,17 @@ def test_a_wrong_figure_in_a_report_is_seen(folder: Path) -> None:
     wrong = Page(text.replace("<td>0 each</td>", "<td>1 each</td>", 1))
     differing = {name for name in page.tables if page.tables[name] != wrong.tables[name]}
     assert differing == {"tables-summary"}
+
+
+def test_pictures_of_the_results_are_in_a_report(
+    load_script: Callable[[str], ModuleType],
+) -> None:
+    folders = load_script("results_tables").STUDIES.values()
+    reports = [(folder / REPORT).read_text() for folder in folders]
+    pictures = sorted((ROOT / "docs/results").rglob("*.png"))
+    elsewhere = {
+        it.name
+        for it in pictures
+        if not any(base64.b64encode(it.read_bytes()).decode() in text for text in reports)
+    }
+    assert elsewhere == {OF_DRIVES}
